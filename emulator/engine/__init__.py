@@ -1,0 +1,54 @@
+"""The servo engine: profiles, control law, drives and loads, and the fused cycle that runs them in virtual time.
+
+It knows nothing of commands or ports. `Engine` is its face; `plan_preset`, `plan_continuous` and `plan_stop` make the
+profiles it runs.
+"""
+
+from .control_law import Gains, UnitFactors
+from .engine import AxisHardware, DriveShutDown, Engine
+from .events import ENABLE_MASK, Event, Relation, Signal, Wire, wire_mask
+from .plants import Plant, TorqueDrive, VelocityDrive
+from .profile import (
+    InvalidSCurve,
+    Segment,
+    Segments,
+    State,
+    TargetOvershot,
+    evaluate,
+    plan_continuous,
+    plan_preset,
+    plan_stop,
+    profile_duration,
+)
+from .rates import RATES, RateTable, ServoRates, rates_for
+
+__all__ = [
+    "ENABLE_MASK",
+    "RATES",
+    "AxisHardware",
+    "DriveShutDown",
+    "Engine",
+    "Event",
+    "Gains",
+    "InvalidSCurve",
+    "Plant",
+    "RateTable",
+    "Relation",
+    "Segment",
+    "Segments",
+    "ServoRates",
+    "Signal",
+    "State",
+    "TargetOvershot",
+    "TorqueDrive",
+    "UnitFactors",
+    "VelocityDrive",
+    "Wire",
+    "evaluate",
+    "plan_continuous",
+    "plan_preset",
+    "plan_stop",
+    "profile_duration",
+    "rates_for",
+    "wire_mask",
+]

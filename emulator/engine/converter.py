@@ -1,0 +1,50 @@
+"""Where numbers become wires and back: the analogue output's converter and the encoder counter.
+
+Both only quantise. They are kept apart from the law and the plant because the shaft's true position and the position
+the unit believes in are two different things, and most of what goes wrong on a real machine lies between them.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .kernels import Record, kernel
+
+OUTPUT_RANGE_V = 10.0
+"""Range of the analogue output, +-V. Documented (6250 User Guide PDF p. 31)."""
+
+DEFAULT_DAC_BITS = 16
+"""Resolution of the output converter over the whole range. Assumed, low confidence."""
+
+
+def dac_fields(bits: int) -> dict[str, float]:
+    """Fields of the unit record for a converter of `bits` bits, two's complement over +-10 V."""
+    if not 2 <= bits <= 32:
+        raise ValueError(f"a converter of {bits} bits cannot be built")
+    codes = 2**bits
+    return {
+        "dac_step_v": 2 * OUTPUT_RANGE_V / codes,
+        "dac_steps_per_volt": codes / (2 * OUTPUT_RANGE_V),
+        "dac_lowest_code": -codes / 2,
+        "dac_highest_code": codes / 2 - 1,
+    }
+
+
+@kernel
+def convert_output(unit: Record, volts: float) -> float:
+    """The voltage the converter really gives for `volts`: nearest step, halves upwards."""
+    code = float(math.floor(volts * unit["dac_steps_per_volt"] + 0.5))
+    if code > unit["dac_highest_code"]:
+        code = unit["dac_highest_code"]
+    if code < unit["dac_lowest_code"]:
+        code = unit["dac_lowest_code"]
+    return float(code * unit["dac_step_v"])
+
+
+@kernel
+def read_encoder(axis: Record) -> None:
+    """Take the encoder's counts since the last sample into the feedback position, with the sign in force."""
+    reading = math.floor(axis["true_position"] * axis["counts_per_rev"] + axis["encoder_phase"])
+    axis["previous_feedback_counts"] = axis["feedback_counts"]
+    axis["feedback_counts"] += axis["encoder_sign"] * (reading - axis["encoder_reading"])
+    axis["encoder_reading"] = reading

@@ -1,0 +1,292 @@
+"""The servo cycle: every sample of every axis of one unit, until a given time or something Python must see.
+
+Samples lie on a fixed grid, so that however a run is cut into slices the unit passes through the same states. Within
+a sample an axis advances its plant over the period just past, moves its commanded position when a trajectory update
+is due, reads its encoder, checks the position error, and computes the output it then holds for the next period. At a
+system update follow limits, target zone, watches and wires; only there can a run end early.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .control_law import closed_loop, limited, open_loop
+from .converter import convert_output, read_encoder
+from .events import (
+    EVENT_HARD_LIMIT,
+    EVENT_MOVE_ENDED,
+    EVENT_POSITION_ERROR,
+    EVENT_SETTLE_TIMEOUT,
+    EVENT_SETTLED,
+    EVENT_SOFT_LIMIT,
+    EVENT_STATUS,
+    EVENT_WIRES,
+)
+from .kernels import Record, Records, kernel
+from .plants import step_plant
+from .status import (
+    NEGATIVE_HARD_LIMIT,
+    NEGATIVE_SOFT_LIMIT,
+    POSITION_ERROR_EXCEEDED,
+    POSITIVE_HARD_LIMIT,
+    POSITIVE_SOFT_LIMIT,
+    TARGET_ZONE_TIMEOUT,
+    axis_status,
+    in_target_zone,
+)
+from .watches import check_watches
+
+S_PER_NS = 1e-9
+
+# Codes of LH and LS (commented 6K configurations; the 6000 taken as equal): bit 1 of the code watches the positive end.
+POSITIVE_END = 2
+NEGATIVE_END = 1
+
+
+@kernel
+def hold_still(axis: Record) -> None:
+    """No profile any more: the commanded position stays where it is."""
+    axis["profile_active"] = 0
+    axis["commanded_velocity"] = 0.0
+    axis["commanded_acceleration"] = 0.0
+
+
+@kernel
+def end_profile(axis: Record, now_ns: int) -> None:
+    """Arrive exactly at the profile's end and start waiting for the target zone."""
+    axis["commanded_counts"] = math.floor(axis["profile_end_counts"] + 0.5)
+    hold_still(axis)
+    axis["pending_events"] |= EVENT_MOVE_ENDED
+    axis["settling"] = axis["target_zone_enable"]
+    axis["settle_start_ns"] = now_ns
+
+
+@kernel
+def follow_profile(axis: Record, segments: Records, now_ns: int) -> None:
+    """Trajectory update: commanded position in whole counts, halves upwards, with the profile's velocity and
+    acceleration. A profile takes effect at its start time and not before."""
+    elapsed_s = (now_ns - axis["profile_start_ns"]) * S_PER_NS
+    if elapsed_s >= axis["profile_end_s"]:
+        end_profile(axis, now_ns)
+        return
+    index = axis["segment_index"]
+    first = axis["first_segment"]
+    while index + 1 < axis["segment_count"] and elapsed_s >= segments[first + index + 1]["start_s"]:
+        index += 1
+    axis["segment_index"] = index
+    segment = segments[first + index]
+    t = elapsed_s - segment["start_s"]
+    half_rate = 0.5 * segment["jerk"] * t
+    velocity = segment["velocity"]
+    acceleration = segment["acceleration"]
+    position = segment["position"] + t * (velocity + t * (0.5 * acceleration + half_rate / 3.0))
+    axis["commanded_counts"] = math.floor(position + 0.5)
+    axis["commanded_velocity"] = velocity + t * (acceleration + half_rate)
+    axis["commanded_acceleration"] = acceleration + segment["jerk"] * t
+
+
+@kernel
+def shut_down_on_error(axis: Record) -> None:
+    """Position error above SMPER: drive off, profile given up, AS bit 23 until the drive is enabled again."""
+    axis["enabled"] = 0
+    axis["settling"] = 0
+    axis["latched_status"] |= POSITION_ERROR_EXCEEDED
+    axis["pending_events"] |= EVENT_POSITION_ERROR
+    hold_still(axis)
+
+
+@kernel
+def check_position_error(axis: Record) -> None:
+    """Compare the position error with SMPER; 0 means not watched."""
+    limit = axis["position_error_limit"]
+    if limit > 0 and abs(axis["commanded_counts"] - axis["feedback_counts"]) > limit:
+        shut_down_on_error(axis)
+
+
+@kernel
+def servo_axis(unit: Record, axis: Record) -> None:
+    """Control law and output. With the drive off or the loop open the command follows the feedback: no error."""
+    if axis["feedback_source"] != 0 and axis["enabled"] != 0:
+        check_position_error(axis)
+    if axis["feedback_source"] != 0 and axis["enabled"] != 0:
+        volts = closed_loop(unit, axis)
+    else:
+        axis["commanded_counts"] = axis["feedback_counts"]
+        volts = open_loop(axis)
+    volts = limited(axis, volts)
+    axis["control_v"] = volts
+    axis["dac_v"] = convert_output(unit, axis["output_sign"] * volts)
+
+
+@kernel
+def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, trajectory_due: bool) -> None:
+    """One servo sample of one axis."""
+    step_plant(axis, unit["servo_s"])
+    if trajectory_due and axis["profile_active"] != 0:
+        follow_profile(axis, segments, now_ns)
+    read_encoder(axis)
+    servo_axis(unit, axis)
+
+
+@kernel
+def limit_active(unit: Record, mask: int, active_level: int) -> bool:
+    """Whether an end-of-travel input is at its active level."""
+    grounded = 1 if (unit["wires"] & mask) != 0 else 0
+    return bool(grounded == active_level)
+
+
+@kernel
+def hard_limit_bit(unit: Record, axis: Record) -> int:
+    """AS bit of the active end-of-travel limit the commanded motion runs towards; 0 if none."""
+    velocity = axis["commanded_velocity"]
+    enable = axis["hard_limit_enable"]
+    if velocity > 0.0 and (enable & POSITIVE_END) != 0:
+        if limit_active(unit, axis["positive_limit_mask"], axis["positive_active_level"]):
+            return POSITIVE_HARD_LIMIT
+    elif (
+        velocity < 0.0
+        and (enable & NEGATIVE_END) != 0
+        and limit_active(unit, axis["negative_limit_mask"], axis["negative_active_level"])
+    ):
+        return NEGATIVE_HARD_LIMIT
+    return 0
+
+
+@kernel
+def soft_limit_bit(axis: Record) -> int:
+    """AS bit of the soft limit the commanded position has passed and runs away from; equal limits are no limits."""
+    if axis["positive_soft_limit"] == axis["negative_soft_limit"]:
+        return 0
+    commanded = axis["commanded_counts"] - axis["offset_counts"]
+    velocity = axis["commanded_velocity"]
+    enable = axis["soft_limit_enable"]
+    if velocity > 0.0 and (enable & POSITIVE_END) != 0 and commanded > axis["positive_soft_limit"]:
+        return POSITIVE_SOFT_LIMIT
+    if velocity < 0.0 and (enable & NEGATIVE_END) != 0 and commanded < axis["negative_soft_limit"]:
+        return NEGATIVE_SOFT_LIMIT
+    return 0
+
+
+@kernel
+def latch_limits(unit: Record, axis: Record) -> None:
+    """Latch the AS bit of a limit newly run into, and tell."""
+    hard = hard_limit_bit(unit, axis)
+    soft = soft_limit_bit(axis)
+    if (hard & ~axis["latched_status"]) != 0:
+        axis["pending_events"] |= EVENT_HARD_LIMIT
+    if (soft & ~axis["latched_status"]) != 0:
+        axis["pending_events"] |= EVENT_SOFT_LIMIT
+    axis["latched_status"] |= hard | soft
+
+
+@kernel
+def settle(axis: Record, now_ns: int) -> None:
+    """Wait for the target zone after a profile. Entering wins over the time-out at the same update."""
+    waited_ns = now_ns - axis["settle_start_ns"]
+    if in_target_zone(axis):
+        axis["settling"] = 0
+        axis["settling_ns"] = waited_ns
+        axis["pending_events"] |= EVENT_SETTLED
+    elif waited_ns > axis["target_timeout_ns"]:
+        axis["settling"] = 0
+        axis["latched_status"] |= TARGET_ZONE_TIMEOUT
+        axis["pending_events"] |= EVENT_SETTLE_TIMEOUT
+
+
+@kernel
+def update_axis(unit: Record, axis: Record, now_ns: int) -> None:
+    """System update of one axis, before the watches."""
+    axis["actual_velocity"] = (axis["feedback_counts"] - axis["system_feedback_counts"]) * unit["system_hz"]
+    axis["system_feedback_counts"] = axis["feedback_counts"]
+    if axis["profile_active"] != 0:
+        latch_limits(unit, axis)
+    if axis["settling"] != 0:
+        settle(axis, now_ns)
+
+
+@kernel
+def collect_events(axis: Record) -> int:
+    """Compare the watched AS bits, hand the axis's new events over and return them."""
+    if axis["watch_mask"] != 0:
+        watched = axis_status(axis) & axis["watch_mask"]
+        if watched != axis["watched_status"]:
+            axis["watched_status"] = watched
+            axis["pending_events"] |= EVENT_STATUS
+    fired = axis["pending_events"]
+    axis["events"] |= fired
+    axis["pending_events"] = 0
+    return int(fired)
+
+
+@kernel
+def check_wires(unit: Record) -> int:
+    """WIRES if any input differs from what was last reported."""
+    if unit["wires"] == unit["reported_wires"] and unit["inputs"] == unit["reported_inputs"]:
+        return 0
+    unit["reported_wires"] = unit["wires"]
+    unit["reported_inputs"] = unit["inputs"]
+    return EVENT_WIRES
+
+
+@kernel
+def system_update(unit: Record, axes: Records, watches: Records, now_ns: int) -> int:
+    """Everything that happens once per system update; returns the events of all axes."""
+    for axis_index in range(unit["axis_count"]):
+        update_axis(unit, axes[axis_index], now_ns)
+    if unit["armed_watches"] != 0:
+        check_watches(unit, axes, watches)
+    fired = check_wires(unit)
+    for axis_index in range(unit["axis_count"]):
+        fired |= collect_events(axes[axis_index])
+    return fired
+
+
+@kernel
+def trajectory_is_due(unit: Record) -> bool:
+    """Count this sample; true if a trajectory update falls on it."""
+    unit["samples_to_trajectory"] -= 1
+    if unit["samples_to_trajectory"] != 0:
+        return False
+    unit["samples_to_trajectory"] = unit["samples_per_trajectory"]
+    return True
+
+
+@kernel
+def system_is_due(unit: Record) -> bool:
+    """Count this trajectory update; true if a system update falls on it."""
+    unit["trajectories_to_system"] -= 1
+    if unit["trajectories_to_system"] != 0:
+        return False
+    unit["trajectories_to_system"] = unit["trajectories_per_system"]
+    return True
+
+
+@kernel
+def servo_sample(unit: Record, axes: Records, segments: Records, watches: Records) -> int:
+    """One servo sample of all axes; returns the events of a system update that fell on it, else 0."""
+    now_ns = unit["next_sample_ns"]
+    trajectory_due = trajectory_is_due(unit)
+    for axis_index in range(unit["axis_count"]):
+        sample_axis(unit, axes[axis_index], segments, now_ns, trajectory_due)
+    unit["next_sample_ns"] = now_ns + unit["servo_ns"]
+    if trajectory_due and system_is_due(unit):
+        return system_update(unit, axes, watches, now_ns)
+    return 0
+
+
+@kernel
+def advance(unit: Record, axes: Records, segments: Records, watches: Records, until_ns: int) -> int:
+    """Run every sample up to `until_ns`, or up to a system update with events; returns the events.
+
+    Also brings the axes' `status` up to date, which is all it does when no sample is due.
+    """
+    fired = 0
+    while fired == 0 and unit["next_sample_ns"] <= until_ns:
+        fired = servo_sample(unit, axes, segments, watches)
+    if fired != 0:
+        unit["time_ns"] = unit["next_sample_ns"] - unit["servo_ns"]
+    elif until_ns > unit["time_ns"]:
+        unit["time_ns"] = until_ns
+    for axis_index in range(unit["axis_count"]):
+        axes[axis_index]["status"] = axis_status(axes[axis_index])
+    return fired

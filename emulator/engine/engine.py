@@ -1,0 +1,437 @@
+"""The servo engine of one unit: its axes in virtual time, and the only face the controller sees of them.
+
+`run` advances the unit to a given time, or to the first system update at which something happened that the
+controller must see. Everything else reads or sets state between runs; a setting takes effect at the next servo
+sample, a profile at the next trajectory update.
+
+Positions are *reported* counts, that is after `PSET`, velocities counts per second; `axis_index` counts from 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from .control_law import Gains, UnitFactors, gain_fields
+from .converter import DEFAULT_DAC_BITS, dac_fields
+from .events import MAX_AXES, Event, Relation, Signal, Wire, wire_mask
+from .layout import AXIS, UNIT, word_of
+from .machine_code import Calls, OnBuild, load_kernel
+from .memory import Memory, write_fields
+from .plants import Plant, VelocityDrive
+from .profile import Segments, State, evaluate, profile_duration
+from .rates import NS_PER_S, ServoRates
+from .readings import ACTIVE, COMMANDED, ENABLED, FEEDBACK, NS_PER_MS, OFFSET, AxisReadings, axis_word
+from .status import CLEARED_BY_ENABLE
+from .watches import WATCH_SLOTS
+
+SHORT_RUN_SAMPLES = 40
+"""Runs of fewer samples keep the interpreter lock: handing it over would cost more than the samples."""
+
+DEFAULT_POSITION_ERROR_LIMIT = 4000
+"""SMPER at power-up, counts. Assumed, medium confidence."""
+
+
+_TIME, _NEXT_SAMPLE, _SERVO = (word_of(UNIT, name) for name in ("time_ns", "next_sample_ns", "servo_ns"))
+_TO_TRAJECTORY, _TO_SYSTEM = (word_of(UNIT, name) for name in ("samples_to_trajectory", "trajectories_to_system"))
+_WIRES, _INPUTS, _FIRED = (word_of(UNIT, name) for name in ("wires", "inputs", "fired_watches"))
+_START, _SOURCE = axis_word("profile_start_ns"), axis_word("feedback_source")
+_ENCODER_SIGN, _OUTPUT_SIGN = axis_word("encoder_sign"), axis_word("output_sign")
+_LATCHED, _EXTRA, _STATUS = (axis_word(name) for name in ("latched_status", "extra_status", "status"))
+_EVENTS = axis_word("events")
+
+_EVENT_OF = {0: Event.NONE} | {event.value: event for event in Event}
+
+
+def _event(mask: int) -> Event:
+    try:
+        return _EVENT_OF[mask]
+    except KeyError:
+        return _EVENT_OF.setdefault(mask, Event(mask))
+
+
+class DriveShutDown(RuntimeError):
+    """A profile was started on an axis whose drive is off."""
+
+
+@dataclass(frozen=True, slots=True)
+class AxisHardware:
+    """What one axis is connected to: drive and load, and an encoder counted post-quadrature."""
+
+    plant: Plant = field(default_factory=VelocityDrive)
+    counts_per_rev: int = 4000
+    encoder_phase: float = 0.0
+    """Position of the count edges within a count, 0 to 1."""
+    start_position_rev: float = 0.0
+
+
+class Engine(AxisReadings):
+    """The servo of one unit. Drives are off, wires open and gains those of power-up until set."""
+
+    def __init__(
+        self,
+        axes: Sequence[AxisHardware],
+        *,
+        rates: ServoRates,
+        dac_bits: int = DEFAULT_DAC_BITS,
+        on_build: OnBuild | None = None,
+        unit_factors: UnitFactors | None = None,
+    ) -> None:
+        if not 1 <= len(axes) <= MAX_AXES:
+            raise ValueError(f"a unit has 1 to {MAX_AXES} axes, not {len(axes)}")
+        self._memory = Memory(len(axes))
+        super().__init__(self._memory)
+        self._unit = self._memory.unit.ints
+        self._plants = [axis.plant for axis in axes]
+        self._profiles: list[Segments] = [() for _ in axes]
+        self._gains = [Gains() for _ in axes]
+        self._factors = unit_factors or UnitFactors()
+        self._stale = True
+        self._kernel = load_kernel(on_build)
+        self._calls: Calls = self._kernel.bind(self._memory)
+        write_fields(self._memory.unit, UNIT, {"axis_count": len(axes), **dac_fields(dac_bits)})
+        for axis_index, hardware in enumerate(axes):
+            self._power_up(axis_index, hardware)
+        self.set_rates(rates)
+
+    def _power_up(self, axis_index: int, hardware: AxisHardware) -> None:
+        start = hardware.start_position_rev * hardware.counts_per_rev + hardware.encoder_phase
+        self._write(
+            axis_index,
+            encoder_sign=1,
+            output_sign=1,
+            feedback_source=1,
+            counts_per_rev=hardware.counts_per_rev,
+            encoder_phase=hardware.encoder_phase,
+            encoder_reading=start // 1,
+            true_position=hardware.start_position_rev,
+            position_error_limit=DEFAULT_POSITION_ERROR_LIMIT,
+            output_limit_v=10.0,
+            hard_limit_enable=3,
+            positive_limit_mask=wire_mask(Wire.POSITIVE_LIMIT, axis_index),
+            negative_limit_mask=wire_mask(Wire.NEGATIVE_LIMIT, axis_index),
+        )
+        self.set_gains(axis_index, Gains())
+        self.set_target_zone(axis_index, distance_counts=50, velocity_counts_s=hardware.counts_per_rev, timeout_ms=1000)
+
+    def _write(self, axis_index: int, **fields: float | None) -> None:
+        """Set those fields of an axis that are given."""
+        given = {name: value for name, value in fields.items() if value is not None}
+        write_fields(self._memory.axis[axis_index], AXIS, given)
+        self._stale = True
+
+    def power_up(self) -> None:
+        """Switch the electronics off and on: drives off, counters at 0, latched status gone; shafts, wires and time go
+        on. Gains, limits and zones keep their values until they are set again."""
+        for axis_index, ints in enumerate(self._ints):
+            self.disable(axis_index)
+            ints[_LATCHED] = ints[_EXTRA] = ints[_EVENTS] = 0
+            ints[COMMANDED] = ints[OFFSET] = ints[FEEDBACK]
+            self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0)
+        self.clear_watches()
+
+    # Time
+
+    @property
+    def time_ns(self) -> int:
+        """Virtual time the unit has reached, ns."""
+        return self._unit[_TIME]
+
+    @property
+    def rates(self) -> ServoRates:
+        """The servo, trajectory and system update rates in force."""
+        return self._rates
+
+    @property
+    def next_trajectory_ns(self) -> int:
+        """Time of the first trajectory update after `time_ns`."""
+        unit = self._unit
+        return unit[_NEXT_SAMPLE] + (unit[_TO_TRAJECTORY] - 1) * unit[_SERVO]
+
+    @property
+    def next_system_update_ns(self) -> int:
+        """Time of the first system update after `time_ns`."""
+        return self.next_trajectory_ns + (self._unit[_TO_SYSTEM] - 1) * self._rates.trajectory_ns
+
+    def run(self, until_ns: int) -> Event:
+        """Run every sample up to `until_ns`, or up to the first system update with events; returns the events.
+
+        Afterwards `time_ns` is that system update's time, or `until_ns`. A time already passed changes nothing.
+        """
+        unit = self._unit
+        ahead_ns = until_ns - unit[_NEXT_SAMPLE]
+        if ahead_ns < 0:
+            if until_ns > unit[_TIME]:
+                unit[_TIME] = until_ns
+            return Event.NONE
+        self._stale = False
+        if ahead_ns < self._short_run_ns:
+            return _event(self._calls.short_run(until_ns))
+        return _event(self._calls.long_run(until_ns))
+
+    def set_rates(self, rates: ServoRates) -> None:
+        """Change the rates; the grid of samples and updates begins anew at `time_ns`."""
+        self._rates = rates
+        self._short_run_ns = SHORT_RUN_SAMPLES * rates.servo_ns
+        fields = {
+            "servo_ns": rates.servo_ns,
+            "servo_s": rates.servo_ns / NS_PER_S,
+            "servo_hz": NS_PER_S / rates.servo_ns,
+            "system_hz": NS_PER_S / rates.system_ns,
+            "samples_per_trajectory": rates.samples_per_trajectory,
+            "trajectories_per_system": rates.trajectories_per_system,
+            "samples_to_trajectory": rates.samples_per_trajectory,
+            "trajectories_to_system": rates.trajectories_per_system,
+            "next_sample_ns": self.time_ns + rates.servo_ns,
+        }
+        write_fields(self._memory.unit, UNIT, fields)
+        for axis_index, plant in enumerate(self._plants):
+            self.set_plant(axis_index, plant)
+
+    def set_plant(self, axis_index: int, plant: Plant) -> None:
+        """Change the drive and load of an axis while it runs; its position and speed go on."""
+        self._plants[axis_index] = plant
+        self._write(axis_index, **plant.fields(self._rates.servo_ns / NS_PER_S))
+
+    # Drive
+
+    def enable(self, axis_index: int) -> None:
+        """Drive on: the commanded position takes over the feedback, AS bits 13, 14 and 23 clear, nothing jumps."""
+        ints = self._ints[axis_index]
+        if not ints[ENABLED]:
+            ints[COMMANDED] = ints[FEEDBACK]
+            self._write(axis_index, enabled=1, term_i=0.0, previous_feedback_counts=ints[FEEDBACK])
+        ints[_LATCHED] &= ~CLEARED_BY_ENABLE
+        self._stale = True
+
+    def disable(self, axis_index: int) -> None:
+        """Drive off: any profile is given up, the command follows the feedback, the motor coasts.
+
+        The output becomes SOFFS at the next servo sample.
+        """
+        self.cancel_profile(axis_index)
+        self._write(axis_index, enabled=0, commanded_counts=self._ints[axis_index][FEEDBACK])
+
+    # Profiles
+
+    def start_profile(self, axis_index: int, segments: Segments) -> None:
+        """Start a profile (reported counts) at the next trajectory update, in place of one that is running.
+
+        DriveShutDown if the drive is off, ValueError for no segments. In open loop (SFB0) a profile runs out its
+        time without moving anything (assumed).
+        """
+        if not segments:
+            raise ValueError("a profile needs at least one segment")
+        if not self._ints[axis_index][ENABLED]:
+            raise DriveShutDown(f"the drive of axis {axis_index + 1} is off")
+        offset = self._ints[axis_index][OFFSET]
+        raw = tuple(segment._replace(position=segment.position + offset) for segment in segments)
+        if self._memory.reserve_segments(len(raw)):
+            self._calls = self._kernel.bind(self._memory)
+        self._memory.store_segments(axis_index, raw)
+        self._profiles[axis_index] = raw
+        duration_s = profile_duration(raw)
+        self._write(
+            axis_index,
+            profile_active=1,
+            profile_start_ns=self.next_trajectory_ns,
+            profile_end_s=duration_s,
+            profile_end_counts=evaluate(raw, duration_s).position if duration_s < float("inf") else 0.0,
+            segment_count=len(raw),
+            segment_index=0,
+            settling=0,
+        )
+
+    def cancel_profile(self, axis_index: int) -> None:
+        """Give up the profile at once: the commanded position stays where it is."""
+        self._write(axis_index, profile_active=0, commanded_velocity=0.0, commanded_acceleration=0.0, settling=0)
+
+    def profile_state(self, axis_index: int) -> State:
+        """Position, velocity, acceleration the profile will have at the next trajectory update: what a new plan
+        starts from. At rest the commanded position."""
+        ints = self._ints[axis_index]
+        if not ints[ACTIVE]:
+            return State(float(ints[COMMANDED] - ints[OFFSET]), 0.0, 0.0)
+        elapsed_s = (self.next_trajectory_ns - ints[_START]) / NS_PER_S
+        position, velocity, acceleration = evaluate(self._profiles[axis_index], elapsed_s)
+        return State(position - ints[OFFSET], velocity, acceleration)
+
+    # Settings
+
+    def set_gains(self, axis_index: int, gains: Gains) -> None:
+        """Put a gain set into force."""
+        self._gains[axis_index] = gains
+        self._write(axis_index, **gain_fields(gains, self._factors))
+
+    def gains(self, axis_index: int) -> Gains:
+        """The gain set in force."""
+        return self._gains[axis_index]
+
+    def set_output(self, axis_index: int, *, offset_v: float | None = None, limit_v: float | None = None) -> None:
+        """SOFFS and DACLIM, V."""
+        self._write(axis_index, offset_v=offset_v, output_limit_v=limit_v)
+
+    def set_position_error_limit(self, axis_index: int, counts: int) -> None:
+        """SMPER, counts; 0 = position error not watched."""
+        self._write(axis_index, position_error_limit=counts)
+
+    def set_feedback(self, axis_index: int, source: int) -> None:
+        """SFB: 0 open loop, 1 encoder, else ValueError. On a change the commanded position takes over the feedback."""
+        if source not in (0, 1):
+            raise ValueError(f"feedback source {source} is not fitted")
+        feedback = self._ints[axis_index][FEEDBACK]
+        if source != self._ints[axis_index][_SOURCE]:
+            self._write(axis_index, feedback_source=source, commanded_counts=feedback, term_i=0.0)
+
+    def set_polarity(self, axis_index: int, *, encoder: int | None = None, command: int | None = None) -> None:
+        """ENCPOL and CMDDIR, 0 normal or 1 reversed. Positions do not jump, only counting and output turn round."""
+        ints = self._ints[axis_index]
+        command_sign = ints[_OUTPUT_SIGN] if command is None else 1 - 2 * command
+        encoder_sign = ints[_ENCODER_SIGN] * ints[_OUTPUT_SIGN] if encoder is None else 1 - 2 * encoder
+        self._write(axis_index, output_sign=command_sign, encoder_sign=encoder_sign * command_sign)
+
+    def set_position(self, axis_index: int, counts: int) -> None:
+        """PSET: the present commanded position becomes `counts`; the feedback shifts with it, the error stays."""
+        self._ints[axis_index][OFFSET] = self._ints[axis_index][COMMANDED] - counts
+
+    def set_hard_limits(
+        self,
+        axis_index: int,
+        *,
+        enable: int | None = None,
+        positive_active_level: int | None = None,
+        negative_active_level: int | None = None,
+    ) -> None:
+        """LH (0 none, 1 positive direction disabled, 2 negative direction disabled, 3 both enabled) and LHLVL.
+
+        Active level 0: an open input is the limit; 1: a grounded one.
+        """
+        self._write(
+            axis_index,
+            hard_limit_enable=enable,
+            positive_active_level=positive_active_level,
+            negative_active_level=negative_active_level,
+        )
+
+    def set_soft_limits(
+        self, axis_index: int, *, enable: int | None = None, positive: int | None = None, negative: int | None = None
+    ) -> None:
+        """LS (codes as LH), LSPOS and LSNEG in reported counts; in force only while the two positions differ."""
+        self._write(axis_index, soft_limit_enable=enable, positive_soft_limit=positive, negative_soft_limit=negative)
+
+    def set_target_zone(
+        self,
+        axis_index: int,
+        *,
+        enable: bool | None = None,
+        distance_counts: float | None = None,
+        velocity_counts_s: float | None = None,
+        timeout_ms: int | None = None,
+    ) -> None:
+        """STRGTE, STRGTD, STRGTV, STRGTT."""
+        self._write(
+            axis_index,
+            target_zone_enable=enable,
+            target_distance=distance_counts,
+            target_velocity=velocity_counts_s,
+            target_timeout_ns=None if timeout_ms is None else timeout_ms * NS_PER_MS,
+            settling=0 if enable is not None and not enable else None,
+        )
+
+    # Wires
+
+    @property
+    def wires(self) -> int:
+        """Electrical state of limits, homes, drive faults and ENABLE, bits of `wire_mask`; 1 = grounded."""
+        return self._unit[_WIRES]
+
+    def set_wires(self, bits: int) -> None:
+        """Set the electrical state of all wires."""
+        self._unit[_WIRES] = bits
+
+    @property
+    def inputs(self) -> int:
+        """Electrical state of the programmable inputs, bit 0 = input 1; 1 = grounded."""
+        return self._unit[_INPUTS]
+
+    def set_inputs(self, bits: int) -> None:
+        """Set the electrical state of all programmable inputs."""
+        self._unit[_INPUTS] = bits
+
+    # Status, watches, events
+
+    def latch_status(self, axis_index: int, mask: int) -> None:
+        """Set latched AS bits."""
+        self._ints[axis_index][_LATCHED] |= mask
+        self._stale = True
+
+    def clear_status(self, axis_index: int, mask: int) -> None:
+        """Clear latched AS bits."""
+        self._ints[axis_index][_LATCHED] &= ~mask
+        self._stale = True
+
+    def set_extra_status(self, axis_index: int, word: int) -> None:
+        """Set the AS bits the controller owns; they are or-ed into the word."""
+        self._ints[axis_index][_EXTRA] = word
+        self._stale = True
+
+    def status(self, axis_index: int) -> int:
+        """The AS word, bit n of the manual = 1 << (n - 1)."""
+        if self._stale:
+            self._refresh()
+        return self._ints[axis_index][_STATUS]
+
+    def _refresh(self) -> None:
+        """Bring the status words up to date; no sample is due at a time already reached."""
+        self._calls.short_run(self._unit[_TIME])
+        self._stale = False
+
+    def watch_status(self, axis_index: int, mask: int) -> None:
+        """Report STATUS when any AS bit of `mask` differs from now, or from the last report; 0 ends the watch."""
+        self._write(axis_index, watch_mask=mask, watched_status=self.status(axis_index) & mask)
+
+    def watch_value(
+        self, slot: int, axis_index: int, signal: Signal | str, relation: Relation | str, threshold: float
+    ) -> None:
+        """Report VALUE at the first system update at which `signal relation threshold` holds, then disarm.
+
+        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are 8 slots.
+        """
+        if not 0 <= slot < WATCH_SLOTS:
+            raise ValueError(f"watch slots are 0 to {WATCH_SLOTS - 1}, not {slot}")
+        code = Signal[signal] if isinstance(signal, str) else Signal(signal)
+        sign = Relation.of(relation) if isinstance(relation, str) else Relation(relation)
+        self._memory.watches[slot] = (1, axis_index, code, sign, threshold)
+        self._memory.units["armed_watches"] = self._memory.watches["armed"].sum()
+
+    def clear_watches(self) -> None:
+        """Disarm every status and value watch."""
+        self._memory.watches["armed"] = 0
+        self._memory.units["armed_watches"] = 0
+        self._memory.units["fired_watches"] = 0
+        self._memory.axes["watch_mask"] = 0
+
+    def fired_watches(self) -> int:
+        """Slots that fired since last asked, bit = slot; reading clears them."""
+        fired = self._unit[_FIRED]
+        self._unit[_FIRED] = 0
+        return fired
+
+    def axis_events(self, axis_index: int) -> Event:
+        """Events of one axis since last asked; reading clears them."""
+        ints = self._ints[axis_index]
+        events = ints[_EVENTS]
+        ints[_EVENTS] = 0
+        return _event(events)
+
+    # The whole
+
+    @property
+    def kernel_origin(self) -> str:
+        """Where the kernel came from: interpreted, cache, built, or memory (built, could not be stored)."""
+        return self._kernel.origin
+
+    def snapshot(self) -> bytes:
+        """The whole servo state; equal bytes mean equal states."""
+        self._refresh()
+        return self._memory.snapshot()

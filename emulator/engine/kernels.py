@@ -1,0 +1,32 @@
+"""The mark that puts a function into the servo kernel.
+
+The servo cycle is written once, as plain Python over structured numpy records, and used in two ways: compiled to
+machine code for real work, and interpreted where a test wants to compare the two. Python must therefore be able to
+import these functions without numba; they are only *registered* here, in the order of their definition (a callee
+before its caller), and `machine_code` compiles the register when no compiled copy is at hand.
+
+Rules for a kernel function: records are indexed with string literals, values are integers and floats, the arithmetic
+is + - * /, comparison and floor (the operations IEEE 754 fixes to the last bit), nothing is raised and nothing is
+allocated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeAlias, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+Record: TypeAlias = np.void
+Records: TypeAlias = npt.NDArray[np.void]
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+KERNEL_FUNCTIONS: list[Callable[..., Any]] = []
+
+
+def kernel(function: Function) -> Function:
+    """Register `function` as part of the servo kernel and return it unchanged, callable as plain Python."""
+    KERNEL_FUNCTIONS.append(function)
+    return function

@@ -1,0 +1,59 @@
+"""Value watches: a comparison of one signal with a threshold, tested at every system update, told once.
+
+They exist so that waiting on a position or a velocity costs nothing: the kernel runs on until the condition holds,
+instead of stopping at every system update for Python to look.
+"""
+
+from __future__ import annotations
+
+from .events import EVENT_VALUE
+from .kernels import Record, Records, kernel
+
+WATCH_SLOTS = 8
+
+
+@kernel
+def signal_value(axis: Record, signal: int) -> float:
+    """Value of a signal, codes of `events.Signal`; positions in reported counts."""
+    if signal == 0:
+        return float(axis["commanded_counts"] - axis["offset_counts"])
+    if signal == 1 or signal == 2:
+        return float(axis["feedback_counts"] - axis["offset_counts"])
+    if signal == 3:
+        return float(axis["commanded_counts"] - axis["feedback_counts"])
+    if signal == 4:
+        return float(axis["commanded_velocity"])
+    if signal == 5:
+        return float(axis["actual_velocity"])
+    return float(axis["dac_v"])
+
+
+@kernel
+def holds(value: float, relation: int, threshold: float) -> bool:
+    """Whether `value relation threshold` is true, codes of `events.Relation`."""
+    if relation == 0:
+        return value == threshold
+    if relation == 1:
+        return value != threshold
+    if relation == 2:
+        return value < threshold
+    if relation == 3:
+        return value > threshold
+    if relation == 4:
+        return value <= threshold
+    return value >= threshold
+
+
+@kernel
+def check_watches(unit: Record, axes: Records, watches: Records) -> None:
+    """Test every armed watch and disarm those that hold."""
+    for slot in range(WATCH_SLOTS):
+        watch = watches[slot]
+        if watch["armed"] == 0:
+            continue
+        axis = axes[watch["axis_index"]]
+        if holds(signal_value(axis, watch["signal"]), watch["relation"], watch["threshold"]):
+            watch["armed"] = 0
+            unit["armed_watches"] -= 1
+            unit["fired_watches"] |= 1 << slot
+            axis["pending_events"] |= EVENT_VALUE
