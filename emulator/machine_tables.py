@@ -1,0 +1,327 @@
+"""The tables of a machine file, each value with its provenance.
+
+Manuals for this unit survive only in part. Whatever no page confirms lives here, in one named
+field with a documented unit, and says where it comes from; nothing of the kind is buried in a
+formula. The same annotations make the fidelity ledger (`emulator.fidelity`), so a value cannot
+be added without being listed there.
+
+Page keys: PG = 6000 Series Programmer's Guide, UG = 6250 Servo Controller User Guide, APEX =
+APEX615n Installation Guide, GemCR = Gemini Command Reference, KB = Parker knowledge base, 6KCR =
+6K Command Reference. Host programs are named by their project.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+Provenance = Literal["documented", "host", "inferred", "assumed", "design"]
+Contact = Literal["closed", "open"]
+
+
+def known(
+    description: str, provenance: Provenance, confidence: str = "", source: str = "", **limits: Any
+) -> msgspec.Meta:
+    """Meta of one field: what it is (with its unit), how sure we are, and the limits msgspec shall enforce.
+
+    `confidence` is H, M or L for inferred and assumed values, else empty.
+    """
+    extra = {"provenance": provenance, "confidence": confidence, "source": source}
+    return msgspec.Meta(description=description, extra=extra, **limits)
+
+
+class Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Common shape of all tables: immutable, keyword-only, unknown keys refused."""
+
+
+Line = Annotated[str, msgspec.Meta(pattern=r"^[ -~]*\Z")]
+
+
+class Identity(Table, frozen=True):
+    """What the unit says about itself."""
+
+    sign_on: Annotated[
+        tuple[Line, ...],
+        known(
+            "power-up lines, stars included; BOT before the first, EOL between, EOT after the last",
+            "assumed",
+            "L",
+            "shape PG 72; product words assumed",
+            min_length=1,
+        ),
+    ] = ("*PARKER OEM6250 MOTION CONTROLLER", "*NO REMOTE PANEL")
+    revision: Annotated[
+        Line, known("text after *TREV; a placeholder part number and revision", "assumed", "L", "shape: EPICS drvPC6K")
+    ] = "92-000000-01-4.7 OEM6250"
+
+
+class Rp240(Table, frozen=True):
+    """The optional operator panel."""
+
+    fitted: Annotated[bool, known("panel connected: second sign-on line and TSS bit 21", "assumed", "H")] = False
+    sign_on_line: Annotated[Line, known("last sign-on line when the panel is fitted", "assumed", "H")] = (
+        "*RP240 CONNECTED"
+    )
+
+
+class Options(Table, frozen=True):
+    """What the order code of the unit includes."""
+
+    following: Annotated[bool, known("Following commands fitted", "assumed", "M")] = True
+    ani: Annotated[bool, known("analog feedback fitted; without it SFB2 is refused", "assumed", "M")] = False
+    expanded_memory: Annotated[bool, known("-M expanded memory fitted", "assumed", "M")] = False
+
+
+class ReplyForm(Table, frozen=True):
+    """What the unit sends at one error level."""
+
+    star: Annotated[bool, known("replies begin with *", "assumed", "L")] = True
+    names: Annotated[bool, known("replies repeat axis number and command name", "assumed", "L")] = True
+    error_text: Annotated[bool, known("error messages are sent", "assumed", "L")] = True
+    ok_prompt: Annotated[bool, known("ERROK after a good command", "assumed", "L")] = True
+    bad_prompt: Annotated[bool, known("ERRBAD after a bad command", "assumed", "L")] = True
+    define_prompt: Annotated[bool, known("ERRDEF while a program is being defined", "assumed", "L")] = True
+
+
+class ErrorLevels(Table, frozen=True):
+    """The error levels no page describes; levels 4 and 1 are fixed (GemCR 117; PG 72 and the MX driver)."""
+
+    level_3: Annotated[ReplyForm, known("ERRLVL3: as 4, without error text", "assumed", "L")] = msgspec.field(
+        name="3", default=ReplyForm(error_text=False)
+    )
+    level_2: Annotated[ReplyForm, known("ERRLVL2: names, and only the ERRBAD prompt", "assumed", "L")] = msgspec.field(
+        name="2", default=ReplyForm(error_text=False, ok_prompt=False, define_prompt=False)
+    )
+    level_0: Annotated[ReplyForm, known("ERRLVL0: requested data only, without *", "assumed", "L")] = msgspec.field(
+        name="0",
+        default=ReplyForm(
+            star=False, names=False, error_text=False, ok_prompt=False, bad_prompt=False, define_prompt=False
+        ),
+    )
+
+    def form(self, level: int) -> ReplyForm:
+        """What is sent at ERRLVL `level` (0 to 4)."""
+        return (self.level_0, _LEVEL_1, self.level_2, self.level_3, ReplyForm())[level]
+
+
+_LEVEL_1 = ReplyForm(names=False, error_text=False, ok_prompt=False, bad_prompt=False, define_prompt=False)
+
+
+class InputBuffer(Table, frozen=True):
+    """The command buffer behind the serial receiver, in bytes."""
+
+    size: Annotated[int, known("capacity, bytes", "assumed", "L", ge=64)] = 2000
+    xoff_at_left: Annotated[int, known("XOFF goes out when this many bytes are left", "assumed", "L", ge=0)] = 200
+    xon_at_left: Annotated[int, known("XON goes out when this many bytes are free again", "assumed", "L", ge=0)] = 1000
+
+
+class Serial(Table, frozen=True):
+    """How commands and answers travel on the line."""
+
+    prompt_per: Annotated[
+        Literal["command", "line"],
+        known("one prompt per command, or one per line of colon-separated commands", "assumed", "M"),
+    ] = "command"
+    empty_prompt: Annotated[
+        bool, known("an empty line at ERRLVL3 and 4 draws the OK prompt", "assumed", "M", "bare CR: KB")
+    ] = True
+    echo_terminator: Annotated[
+        Literal["eol", "received"],
+        known(
+            "the CR or LF that ends a command is echoed as the EOL characters, or as received",
+            "host",
+            source="a C host of ZETA6104 chains needs the LF",
+        ),
+    ] = "eol"
+    error_lead: Annotated[
+        Literal["crlf", "none"],
+        known("what stands between BOT and the * of an error", "documented", source="GemCR 117; some hosts saw none"),
+    ] = "crlf"
+    max_command: Annotated[
+        int, known("longest command between delimiters, characters, blanks not counted", "assumed", "L", ge=16, le=4096)
+    ] = 100
+    buffer: Annotated[InputBuffer, known("the command buffer", "assumed", "L")] = InputBuffer()
+    go_prompt: Annotated[
+        Literal["when_done", "at_once"],
+        known(
+            "when the prompt of GO, GOL, HOM leaves in COMEXC0: when the move is over, or at once",
+            "host",
+            "M",
+            "several hosts wait for it; form assumed",
+        ),
+    ] = "when_done"
+
+
+class InputsOutputs(Table, frozen=True):
+    """Programmable inputs and outputs; the two triggers and OUT-A, OUT-B are the next two bits of each word."""
+
+    inputs: Annotated[Literal[24, 16, 8], known("programmable inputs", "assumed", "M")] = 24
+    outputs: Annotated[Literal[24, 16, 8], known("programmable outputs", "assumed", "M")] = 24
+
+
+class Range(Table, frozen=True):
+    """A closed range of a command field."""
+
+    minimum: Annotated[float, known("smallest value accepted", "assumed", "M", ge=0)]
+    maximum: Annotated[float, known("largest value accepted", "assumed", "M", gt=0)]
+
+
+class Limits(Table, frozen=True):
+    """Field ranges on which the sources disagree."""
+
+    accel: Annotated[
+        Range, known("A AA AD ADA and their kin, rev/s2 unscaled", "assumed", "M", "GemCR 19 has 0.001 to 999.9999")
+    ] = Range(minimum=0.00025, maximum=24_999_975.0)
+
+
+class Memory(Table, frozen=True):
+    """User memory and its counts."""
+
+    total_bytes: Annotated[int, known("user memory, bytes", "documented", source="UG 83", ge=2000)] = 40_000
+    program_bytes: Annotated[
+        int, known("program part at start, bytes", "documented", source="UG 83", ge=1000, multiple_of=2)
+    ] = 21_400
+    compiled_bytes: Annotated[
+        int,
+        known(
+            "compiled-path part at start, bytes", "inferred", "H", "UG 83: the rest of 40,000", ge=1000, multiple_of=2
+        ),
+    ] = 18_600
+    minimum_part_bytes: Annotated[
+        int, known("smallest part MEMORY accepts, bytes", "documented", source="UG 83: up to 39,000 for programs", ge=2)
+    ] = 1000
+    segment_bytes: Annotated[int, known("compiled memory per segment, bytes", "assumed", "L", ge=1)] = 76
+    programs: Annotated[int, known("programs", "documented", source="UG 83", ge=1)] = 100
+    var: Annotated[int, known("numeric variables", "documented", source="UG 74", ge=1)] = 150
+    varb: Annotated[int, known("binary variables", "documented", source="UG 74", ge=1)] = 25
+    vars: Annotated[int, known("string variables", "documented", source="UG 74", ge=1)] = 25
+    string_characters: Annotated[int, known("longest string, characters", "documented", source="UG 74", ge=1)] = 20
+    labels: Annotated[int, known("labels", "assumed", "M", ge=1)] = 250
+    compiled: Annotated[int, known("compiled programs", "assumed", "M", ge=1)] = 100
+    nest_levels: Annotated[int, known("nesting of IF, loops and GOSUB", "assumed", "H", ge=1)] = 16
+
+
+class UnitFactors(Table, frozen=True):
+    """What one unit of each gain command means; 1.0 is the product family's unit."""
+
+    sgp: Annotated[float, known("mV per count of position error", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
+    sgi: Annotated[float, known("mV per count second", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
+    sgv: Annotated[float, known("uV per count/s", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
+    sgvf: Annotated[float, known("uV per count/s", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
+    sgaf: Annotated[float, known("uV per count/s2", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
+
+
+Microseconds = Annotated[int, msgspec.Meta(gt=0, le=1_000_000)]
+
+
+class RateRow(Table, frozen=True):
+    """The three periods of one SSFR value, microseconds."""
+
+    ssfr: Literal[1, 2, 4, 8]
+    servo_us: Microseconds
+    trajectory_us: Microseconds
+    system_us: Microseconds
+
+
+def _row(ssfr: Literal[1, 2, 4, 8], servo_us: int, trajectory_us: int, system_us: int) -> RateRow:
+    return RateRow(ssfr=ssfr, servo_us=servo_us, trajectory_us=trajectory_us, system_us=system_us)
+
+
+class RateTable(Table, frozen=True):
+    """Servo sample, trajectory update and system update for INDAX1 and INDAX2."""
+
+    indax1: Annotated[
+        tuple[RateRow, ...],
+        known("periods with one axis", "documented", source="APEX 83, a one-axis unit", min_length=4, max_length=4),
+    ] = (_row(1, 330, 330, 1320), _row(2, 185, 370, 1480), _row(4, 160, 640, 1920), _row(8, 150, 1200, 2400))
+    indax2: Annotated[
+        tuple[RateRow, ...],
+        known("periods with two axes; no page survives", "assumed", "L", min_length=4, max_length=4),
+    ] = (_row(1, 580, 580, 2320), _row(2, 325, 650, 1950), _row(4, 280, 1120, 2240), _row(8, 265, 2120, 2120))
+
+    def row(self, *, indax: int, ssfr: int) -> RateRow:
+        """The periods in force for `indax` axes (1 or 2) at `ssfr` (1, 2, 4 or 8)."""
+        return next(row for row in (self.indax1 if indax == 1 else self.indax2) if row.ssfr == ssfr)
+
+
+class Servo(Table, frozen=True):
+    """The servo processor."""
+
+    dac_bits: Annotated[int, known("resolution of the output over +-10 V, bits", "assumed", "L", ge=8, le=24)] = 16
+    unit_factors: Annotated[UnitFactors, known("units of the gain commands", "assumed", "H")] = UnitFactors()
+    ssfr_table: Annotated[RateTable, known("update periods", "assumed", "L")] = RateTable()
+
+
+class EncoderInput(Table, frozen=True):
+    """The encoder input stage, common to both axes."""
+
+    max_rate: Annotated[float, known("post-quadrature counts per second", "assumed", "L", gt=0)] = 1_600_000.0
+
+
+class VelocityDrive(Table, frozen=True, tag_field="kind", tag="velocity_drive"):
+    """A drive that closes its own velocity loop; the command voltage asks for a speed."""
+
+    speed_per_volt_rev_s: Annotated[float, known("speed asked by one volt, rev/s", "design", gt=0)] = 10.0
+    loop_time_constant_s: Annotated[float, known("lag of the drive's velocity loop, s", "design", gt=0, le=10)] = 0.002
+    command_lag_s: Annotated[float, known("lag of the command input, s", "design", ge=0, le=10)] = 0.0003
+    max_acceleration_rev_s2: Annotated[float, known("peak torque over inertia, rev/s2; inf = none", "design", gt=0)] = (
+        5000.0
+    )
+    coast_time_constant_s: Annotated[float, known("run-down when shut down, s", "design", gt=0, le=1000)] = 0.05
+
+
+class TorqueDrive(Table, frozen=True, tag_field="kind", tag="torque_drive"):
+    """A torque amplifier with motor and load; the command voltage asks for a torque."""
+
+    torque_per_volt_nm: Annotated[float, known("torque asked by one volt, Nm", "design", gt=0)] = 0.5
+    inertia_kg_m2: Annotated[float, known("motor plus load, kg m2", "design", gt=0)] = 2.0e-4
+    viscous_nm_s_per_rev: Annotated[float, known("viscous friction, Nm per rev/s", "design", ge=0)] = 0.001
+    coulomb_nm: Annotated[float, known("Coulomb friction, Nm", "design", ge=0)] = 0.0
+    load_torque_nm: Annotated[float, known("constant load torque, Nm, positive turns positive", "design")] = 0.0
+    peak_torque_nm: Annotated[float, known("largest torque of the drive, Nm; inf = none", "design", gt=0)] = 5.0
+
+
+class Encoder(Table, frozen=True):
+    """The encoder of one axis."""
+
+    counts_per_rev: Annotated[int, known("post-quadrature counts per revolution", "design", ge=1, le=100_000_000)] = (
+        4000
+    )
+    phase: Annotated[float, known("where in a count the shaft stands at start, counts", "design", ge=0, lt=1)] = 0.0
+
+
+class AxisWires(Table, frozen=True):
+    """The contacts of one axis: closed = grounded, open = pulled high."""
+
+    positive_limit: Annotated[Contact, known("positive end-of-travel switch; bare: open", "design")] = "closed"
+    negative_limit: Annotated[Contact, known("negative end-of-travel switch; bare: open", "design")] = "closed"
+    home: Annotated[Contact, known("home switch", "design")] = "open"
+    drive_fault: Annotated[Contact, known("drive-fault input; open (high) is inactive with DRFLVL0", "design")] = "open"
+
+
+class Axis(Table, frozen=True):
+    """What is connected to one axis."""
+
+    plant: Annotated[VelocityDrive | TorqueDrive, known("drive, motor and load", "design")] = VelocityDrive()
+    encoder: Annotated[Encoder, known("the encoder", "design")] = Encoder()
+    wires: Annotated[AxisWires, known("its contacts", "design")] = AxisWires()
+
+
+Volts = Annotated[float, msgspec.Meta(ge=0.0, le=2.5)]
+
+
+class Wires(Table, frozen=True):
+    """Contacts and voltages common to the unit."""
+
+    enable: Annotated[Contact, known("ENABLE input; closed = grounded = motion allowed; bare: open", "design")] = (
+        "closed"
+    )
+    inputs: Annotated[
+        tuple[int, ...],
+        known("numbers of the inputs that are closed; the triggers follow the programmable ones", "design"),
+    ] = ()
+    analog: Annotated[
+        tuple[Volts, Volts, Volts],
+        known("joystick channels 1 to 3, V; at rest in the middle", "design", source="0 to 2.5 V: UG 67"),
+    ] = (1.25, 1.25, 1.25)
