@@ -1,0 +1,86 @@
+"""From the machine file to the parts of a controller: the one place that knows both vocabularies."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+from emulator.controller.settings import Settings
+from emulator.engine import (
+    AxisHardware,
+    Engine,
+    ServoRates,
+    TorqueDrive,
+    UnitFactors,
+    VelocityDrive,
+)
+from emulator.engine.machine_code import OnBuild
+from emulator.machine import Axis, Machine
+from emulator.machine import TorqueDrive as TorqueDriveTable
+from emulator.machine import VelocityDrive as VelocityDriveTable
+
+
+def build_settings(machine: Machine) -> Settings:
+    """The settings store with the machine's power-up defaults and ranges."""
+    accel = machine.limits.accel
+    return Settings(
+        machine.defaults,
+        acceleration_range=(Decimal(str(accel.minimum)), Decimal(str(accel.maximum))),
+        ani_fitted=machine.options.ani,
+        lenient_masks=machine.lenient_masks,
+    )
+
+
+def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None) -> Engine:
+    """The servo engine with the machine's axes."""
+    return Engine(
+        [axis_hardware(axis) for axis in machine.axes],
+        rates=rates_in_force(machine, settings),
+        dac_bits=machine.servo.dac_bits,
+        on_build=on_build,
+        unit_factors=unit_factors(machine),
+    )
+
+
+def unit_factors(machine: Machine) -> UnitFactors:
+    """Volts per unit of each gain command: the family's, times what the machine file says."""
+    family, file = UnitFactors(), machine.servo.unit_factors
+    return UnitFactors(
+        sgp=family.sgp * file.sgp,
+        sgi=family.sgi * file.sgi,
+        sgv=family.sgv * file.sgv,
+        sgvf=family.sgvf * file.sgvf,
+        sgaf=family.sgaf * file.sgaf,
+    )
+
+
+def rates_in_force(machine: Machine, settings: Settings) -> ServoRates:
+    """Servo sample, trajectory and system update for the present INDAX and SSFR."""
+    row = machine.servo.ssfr_table.row(indax=settings.axes_in_use, ssfr=settings.integer("SSFR"))
+    return ServoRates.from_us(servo_us=row.servo_us, trajectory_us=row.trajectory_us, system_us=row.system_us)
+
+
+def axis_hardware(axis: Axis) -> AxisHardware:
+    """What an axis is connected to, in the engine's terms."""
+    return AxisHardware(
+        plant=plant(axis.plant), counts_per_rev=axis.encoder.counts_per_rev, encoder_phase=axis.encoder.phase
+    )
+
+
+def plant(table: VelocityDriveTable | TorqueDriveTable) -> VelocityDrive | TorqueDrive:
+    """A drive and its load, in the engine's terms."""
+    if isinstance(table, VelocityDriveTable):
+        return VelocityDrive(
+            speed_per_volt_rev_s=table.speed_per_volt_rev_s,
+            loop_time_constant_s=table.loop_time_constant_s,
+            command_lag_s=table.command_lag_s,
+            max_acceleration_rev_s2=table.max_acceleration_rev_s2,
+            coast_time_constant_s=table.coast_time_constant_s,
+        )
+    return TorqueDrive(
+        torque_per_volt_nm=table.torque_per_volt_nm,
+        inertia_kg_m2=table.inertia_kg_m2,
+        viscous_nm_s_per_rev=table.viscous_nm_s_per_rev,
+        coulomb_nm=table.coulomb_nm,
+        load_torque_nm=table.load_torque_nm,
+        peak_torque_nm=table.peak_torque_nm,
+    )

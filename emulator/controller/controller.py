@@ -1,0 +1,315 @@
+"""One OEM6250: bytes in at a virtual time, bytes out stamped with virtual time.
+
+Inside there is no wall clock, no socket, no thread and no randomness.  ``receive`` and ``advance`` first run the servo
+engine to the time given, acting on everything that happens on the way; so however a session is cut into calls, the
+same bytes leave at the same times.
+"""
+
+from __future__ import annotations
+
+from emulator.controller import dispatch
+from emulator.controller.build import build_engine, build_settings, rates_in_force
+from emulator.controller.communications import answers_to, framing_in_force
+from emulator.controller.dispatch import handles
+from emulator.controller.faults import Faults
+from emulator.controller.gain_sets import AxisGains
+from emulator.controller.interpreter import Interpreter
+from emulator.controller.operands import Operands
+from emulator.controller.output import Output, Transmitter
+from emulator.controller.programs import Programs
+from emulator.controller.stopping import end_of_travel, stop_axes
+from emulator.controller.wiring import Wiring
+from emulator.engine import Event
+from emulator.engine.machine_code import OnBuild
+from emulator.machine import Machine
+from protocol.command import Command, VariableReference, parse_command
+from protocol.errors import COMMAND_NOT_IMPLEMENTED, CommandError
+from protocol.line import LineAssembler, Token, TokenKind
+from protocol.reply import Framing
+from protocol.status import AxisStatus, ErrorStatus
+
+NONVOLATILE_SETTINGS = ("STARTP", "ADDR", "CMDDIR", "ENCPOL", "DRPCHK", "XONOFF")
+"""Settings that survive RESET and power-off (6K list of the knowledge base, assumed M for the 6000)."""
+
+COMMAND_WHILE_SILENT = "E"
+"""The only command a unit obeys after E0."""
+
+
+class Controller:
+    """One unit and everything in it; the parts are public because its command handlers work on them."""
+
+    def __init__(self, machine: Machine, *, on_build: OnBuild | None = None) -> None:
+        self.machine = machine
+        self.settings = build_settings(machine)
+        self.engine = build_engine(machine, self.settings, on_build)
+        self.wiring = Wiring(self.engine, machine)
+        self.faults = Faults()
+        self.programs = Programs(
+            capacity_bytes=machine.memory.program_bytes,
+            max_programs=machine.memory.programs,
+            max_nesting=machine.memory.nest_levels,
+        )
+        self.operands = Operands(self)
+        self.interpreter = Interpreter(self)
+        self.framing: Framing = framing_in_force(self)
+        self.echo = True
+        self.listening = True
+        self.powered = False
+        self.drive_faulted = [False] * self.settings.axes
+        self.gain_sets: dict[int, list[AxisGains]] = {}
+        self._lines: dict[int, LineAssembler] = {}
+        self._transmitter = Transmitter()
+        dispatch.apply_all(self)
+
+    # The face towards the engine thread, tests and recordings.
+
+    @property
+    def now_ns(self) -> int:
+        """The virtual time the unit has reached."""
+        return self.engine.time_ns
+
+    @property
+    def busy(self) -> bool:
+        """Motion, dwell, wait or program under way: the next output or effect may come by itself."""
+        return self.interpreter.busy or any(self.engine.is_moving(i) for i in range(self.settings.axes))
+
+    @property
+    def input_full(self) -> bool:
+        """So many commands wait that more input should stay on the wire."""
+        return self.interpreter.full
+
+    def power_up(self) -> None:
+        """Switch on: volatile settings at their defaults, sign-on sent, start-up program begun."""
+        self.powered = True
+        self._start()
+
+    def power_down(self) -> None:
+        """Switch off: nothing is answered, drives are off, the motors coast."""
+        self._stop_everything()
+        self.powered = False
+        self._lines.clear()
+
+    def receive(self, data: bytes, *, at_ns: int, channel: int) -> None:
+        """Bytes from a connection at a virtual time (not before ``now_ns``)."""
+        if at_ns > self.engine.time_ns:
+            self.advance(at_ns)
+        if not self.powered:
+            return
+        line = self._lines.get(channel)
+        if line is None:
+            line = self._lines[channel] = LineAssembler(self.machine.serial.max_command)
+        for token in line.feed(data):
+            self._take(token, channel)
+
+    def advance(self, until_ns: int) -> None:
+        """Run to a virtual time, carrying out what becomes due on the way."""
+        engine, interpreter = self.engine, self.interpreter
+        while engine.time_ns < until_ns:
+            look_again_ns = interpreter.look_again_ns
+            events = engine.run(min(until_ns, look_again_ns))
+            if events:
+                self._act_on(events)
+                interpreter.run()
+            elif engine.time_ns >= look_again_ns:
+                interpreter.run()
+
+    def take_output(self) -> list[Output]:
+        """What has left the unit since last asked."""
+        return self._transmitter.take()
+
+    def detach(self, channel: int) -> None:
+        """A connection is gone: half a command of it is forgotten, everything else goes on."""
+        self._lines.pop(channel, None)
+
+    # What handlers and the interpreter use.
+
+    def send(self, data: bytes, channel: int | None) -> None:
+        """Bytes leave the unit now."""
+        self._transmitter.send(self.engine.time_ns, data, channel)
+
+    def answers_to(self, address: int | None) -> bool:
+        """Whether a command with this unit address is for this unit."""
+        return answers_to(self, address)
+
+    def substitute(self, command: Command) -> Command:
+        """The command with every ``(VARn)`` replaced by its value.
+
+        Raises:
+            CommandError: the unit has no variables yet.
+        """
+        referenced = command.variable is not None or any(isinstance(v, VariableReference) for v in command.values)
+        if referenced:
+            raise CommandError(COMMAND_NOT_IMPLEMENTED)
+        return command
+
+    def setting_command(self, name: str) -> Command:
+        """A setting as a bare command (what ``applies`` functions are called with at power-up)."""
+        return parse_command(name)
+
+    def query_text(self, name: str) -> str:
+        """The value part of a setting's report."""
+        return self.settings.report(parse_command(name))[0].value
+
+    def system_update_at(self, at_ns: int) -> int:
+        """The first system update at or after a time."""
+        following, period = self.engine.next_system_update_ns, self.engine.rates.system_ns
+        return following + max(0, -((following - at_ns) // period)) * period
+
+    def apply_rates(self) -> None:
+        """SSFR or INDAX changed."""
+        self.engine.set_rates(rates_in_force(self.machine, self.settings))
+
+    def shut_down(self, axis_index: int) -> None:
+        """Assert the shutdown output of an axis: loop open, motion given up."""
+        self.engine.disable(axis_index)
+        self.note_drive(axis_index, on=False)
+
+    def note_drive(self, axis_index: int, *, on: bool) -> None:
+        """Keep the DRIVE report in step with the drive."""
+        bits = list(self.settings.bits("DRIVE"))
+        bits[axis_index] = "1" if on else "0"
+        self.settings.store_bits("DRIVE", "".join(bits))
+
+    def refresh_axis_bits(self, axis_index: int) -> None:
+        """Put the AS bits that belong to the controller into the axis's status word."""
+        modes = {
+            AxisStatus.MODE_ABSOLUTE: self.settings.flag("MA", axis_index),
+            AxisStatus.MODE_CONTINUOUS: self.settings.flag("MC", axis_index),
+            AxisStatus.JOG_MODE: self.settings.flag("JOG", axis_index),
+            AxisStatus.JOYSTICK_MODE: self.settings.flag("JOY", axis_index),
+            AxisStatus.DRIVE_FAULTED: self.drive_faulted[axis_index],
+        }
+        self.engine.set_extra_status(axis_index, sum(bit.mask for bit, on in modes.items() if on))
+
+    def drive_fault_active(self, axis_index: int) -> bool:
+        """The drive-fault input is at its active level (DRFLVL0: low)."""
+        return self.wiring.drive_fault_grounded(axis_index) != self.settings.flag("DRFLVL", axis_index)
+
+    # Characters.
+
+    def _take(self, token: Token, channel: int) -> None:
+        if self.echo and self.listening:
+            self._echo(token, channel)
+        kind = token.kind
+        if kind is TokenKind.COMMAND:
+            if self.listening or _switches_communication(token.text):
+                self.interpreter.accept(token.text, channel, ends_line=token.ends_line)
+        elif not self.listening:
+            return
+        elif kind is TokenKind.KILL:
+            self.interpreter.accept(token.text, channel, ends_line=True)
+        elif kind is TokenKind.TOO_LONG:
+            self.interpreter.refuse_too_long(channel)
+        elif kind is TokenKind.EMPTY_LINE and self.machine.serial.empty_prompt:
+            self.interpreter.accept_empty(channel)
+
+    def _echo(self, token: Token, channel: int) -> None:
+        ending = b""
+        if token.ends_line:
+            ending = self.framing.eol if self.machine.serial.echo_terminator == "eol" else token.delimiter
+        elif token.delimiter:
+            ending = token.delimiter
+        self.send(token.echo + ending, channel)
+
+    # Events of the engine.
+
+    def _act_on(self, events: Event) -> None:
+        if events & Event.WIRES:
+            self._check_wires()
+        for axis_index in range(self.settings.axes):
+            axis_events = self.engine.axis_events(axis_index)
+            if axis_events:
+                self._act_on_axis(axis_index, axis_events)
+
+    def _act_on_axis(self, axis_index: int, events: Event) -> None:
+        if events & Event.HARD_LIMIT:
+            end_of_travel(self, axis_index, "LHAD", ErrorStatus.HARD_LIMIT_HIT)
+        if events & Event.SOFT_LIMIT:
+            end_of_travel(self, axis_index, "LSAD", ErrorStatus.SOFT_LIMIT_HIT)
+        if events & Event.POSITION_ERROR:
+            self.note_drive(axis_index, on=False)
+            self.faults.latch(ErrorStatus.POSITION_ERROR_EXCEEDED)
+        if events & Event.SETTLE_TIMEOUT:
+            self.faults.latch(ErrorStatus.TARGET_ZONE_TIMEOUT)
+
+    def _check_wires(self) -> None:
+        """ENABLE and drive faults; end-of-travel inputs are watched by the servo itself."""
+        if not self.wiring.enable_grounded:
+            self._lose_enable()
+        if self.settings.flag("INFEN"):
+            for axis_index in range(self.settings.axes_in_use):
+                if self.drive_fault_active(axis_index) and not self.drive_faulted[axis_index]:
+                    self._drive_fault(axis_index)
+
+    def _lose_enable(self) -> None:
+        """ENABLE opened: every drive is shut down whatever KDRIVE says, programs end (assumed M)."""
+        for axis_index in range(self.settings.axes):
+            self.shut_down(axis_index)
+        self.faults.latch(ErrorStatus.ENABLE_INPUT_OPEN)
+        self.interpreter.discard()
+
+    def _drive_fault(self, axis_index: int) -> None:
+        """An active drive-fault input shuts its drive down and stops the program (6250 UG, symptom documented)."""
+        self.drive_faulted[axis_index] = True
+        self.shut_down(axis_index)
+        self.refresh_axis_bits(axis_index)
+        self.faults.latch(ErrorStatus.DRIVE_FAULT)
+        self.interpreter.discard()
+
+    # Power.
+
+    def reset(self) -> None:
+        """RESET: as power off and on, without losing what lies in non-volatile memory."""
+        self._stop_everything()
+        self._start()
+
+    def _stop_everything(self) -> None:
+        stop_axes(self, range(self.settings.axes), "LHAD")
+        for axis_index in range(self.settings.axes):
+            self.shut_down(axis_index)
+        self.interpreter.abandon()
+        self.programs.abandon_definition()
+
+    def _start(self) -> None:
+        self.settings.reset(keep=NONVOLATILE_SETTINGS)
+        self.faults = Faults()
+        self.drive_faulted = [False] * self.settings.axes
+        self.engine.power_up()
+        dispatch.apply_all(self)
+        for axis_index in range(self.settings.axes):
+            self.refresh_axis_bits(axis_index)
+        self._enable_drives_by_default()
+        if self.settings.integer("ADDR") == 0:
+            self._sign_on()
+        start_up = self.settings.program_name("STARTP")
+        if start_up and (self.wiring.enable_grounded or not self.machine.startp_needs_enable):
+            self.interpreter.start_program(start_up)
+
+    def _enable_drives_by_default(self) -> None:
+        """DRIVE1 as a power-up default of the machine file (a stepper host's unit comes up energised)."""
+        for axis_index in range(self.settings.axes_in_use):
+            if self.settings.flag("DRIVE", axis_index):
+                if self.wiring.enable_grounded:
+                    self.engine.enable(axis_index)
+                else:
+                    self.note_drive(axis_index, on=False)
+
+    def _sign_on(self) -> None:
+        """The power-up message keeps its asterisks at every error level."""
+        framing = self.framing
+        lines = framing.eol.join(line.encode("latin-1") for line in self.machine.sign_on_lines)
+        self.send(framing.bot + lines + framing.eot + framing.prompt(good=True), None)
+
+
+def _switches_communication(text: str) -> bool:
+    try:
+        return parse_command(text).name == COMMAND_WHILE_SILENT
+    except CommandError:
+        return False
+
+
+@handles("RESET")
+def reset(controller: Controller, command: Command) -> dispatch.Lines:
+    """RESET."""
+    controller.reset()
+    return None

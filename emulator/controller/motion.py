@@ -1,0 +1,206 @@
+"""Starting motion: GO reads A, AA, AD, ADA, V, D, MA and MC as they stand and starts the profile they make."""
+
+from __future__ import annotations
+
+from decimal import ROUND_DOWN, Decimal
+from typing import TYPE_CHECKING
+
+from emulator.controller.dispatch import Lines, applies, handles, require_rest
+from emulator.controller.faults import CLEARED_BY_GO
+from emulator.controller.limits import limit_in_the_way
+from emulator.controller.waits import MotionWait
+from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
+from protocol.command import Command
+from protocol.errors import (
+    DRIVE_SHUTDOWN,
+    ENABLE_INPUT_INACTIVE,
+    INCORRECT_DATA,
+    NOT_ALLOWED_IF_SFB0,
+    CommandError,
+    s_curve_acceleration,
+    s_curve_deceleration,
+)
+from protocol.fields import axis_indexes, checked_number, place_mask, place_values
+from protocol.status import AxisStatus, ErrorStatus
+
+if TYPE_CHECKING:
+    from emulator.controller.controller import Controller
+
+OPEN_LOOP = 0
+
+CLEARED_BY_LEGAL_GO = (
+    AxisStatus.POSITIVE_HARD_LIMIT_HIT.mask
+    | AxisStatus.NEGATIVE_HARD_LIMIT_HIT.mask
+    | AxisStatus.POSITIVE_SOFT_LIMIT_HIT.mask
+    | AxisStatus.NEGATIVE_SOFT_LIMIT_HIT.mask
+    | AxisStatus.TARGET_ZONE_TIMEOUT.mask
+    | AxisStatus.PRESET_MOVE_OVERSHOT.mask
+)
+"""AS bits that the next legal GO clears (assumed M)."""
+
+
+@handles("GO")
+def go(controller: Controller, command: Command) -> Lines:
+    """GO: start the loaded profile on the axes named, or on all whose drive is on."""
+    axes = _axes_to_start(controller, command)
+    for axis_index in axes:
+        check_s_curve(controller, axis_index)
+    controller.faults.clear(CLEARED_BY_GO)
+    for axis_index in axes:
+        start(controller, axis_index)
+    if not controller.settings.flag("COMEXC") and axes:
+        controller.interpreter.wait_for(MotionWait(tuple(axes)))
+    return None
+
+
+def _axes_to_start(controller: Controller, command: Command) -> list[int]:
+    """The axes a GO starts.
+
+    Raises:
+        CommandError: ENABLE open, a named axis shut down, none to start, or an axis in open loop.
+    """
+    named = named_axes(controller, command)
+    if not controller.wiring.enable_grounded:
+        raise CommandError(ENABLE_INPUT_INACTIVE)
+    candidates = range(controller.settings.axes_in_use) if named is None else named
+    enabled = [axis_index for axis_index in candidates if controller.engine.is_enabled(axis_index)]
+    if candidates and (not enabled or (named is not None and len(enabled) < len(named))):
+        raise CommandError(DRIVE_SHUTDOWN)
+    if any(controller.settings.integer("SFB", axis_index) == OPEN_LOOP for axis_index in enabled):
+        raise CommandError(NOT_ALLOWED_IF_SFB0)
+    return enabled
+
+
+def named_axes(controller: Controller, command: Command) -> list[int] | None:
+    """The axes that a mask or prefix names; None for a bare command, which means all."""
+    axes = controller.settings.axes_in_use
+    if command.mask:
+        lenient = controller.machine.lenient_masks
+        return [index for index, digit in enumerate(place_mask(command, axes, lenient=lenient)) if digit == "1"]
+    if command.argument:
+        raise CommandError(INCORRECT_DATA)
+    if command.axis is not None:
+        return list(axis_indexes(command, axes))
+    return None
+
+
+def check_s_curve(controller: Controller, axis_index: int) -> None:
+    """A/2 <= AA <= A and the same for the deceleration, checked at GO and never before (a host sets them one by one).
+
+    Raises:
+        CommandError: INVALID CONDITIONS FOR S_CURVE ...
+    """
+    settings = controller.settings
+    maximum, average = settings.counts("A", axis_index), settings.counts("AA", axis_index)
+    if not maximum <= 2 * average <= 2 * maximum:
+        raise s_curve_acceleration(axis_index + 1)
+    maximum, average = settings.counts("AD", axis_index), settings.counts("ADA", axis_index)
+    if not maximum <= 2 * average <= 2 * maximum:
+        raise s_curve_deceleration(axis_index + 1)
+
+
+def start(controller: Controller, axis_index: int) -> None:
+    """Start one axis: nothing moves into an active limit, a target that cannot be reached stops the axis."""
+    engine = controller.engine
+    if controller.settings.flag("MC", axis_index):
+        direction = 1 if controller.settings.counts("D", axis_index) >= 0 else -1
+        if controller.settings.counts("V", axis_index) == 0:
+            direction = 0
+    else:
+        distance = preset_target(controller, axis_index) - engine.profile_state(axis_index).position
+        direction = (distance > 0) - (distance < 0)
+    hit = limit_in_the_way(controller, axis_index, direction)
+    if hit is not None:
+        engine.latch_status(axis_index, hit.axis_bit.mask)
+        controller.faults.latch(hit.error_bit)
+        return
+    engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
+    controller.faults.clear(ErrorStatus.HARD_LIMIT_HIT.mask | ErrorStatus.SOFT_LIMIT_HIT.mask)
+    if controller.settings.flag("MC", axis_index):
+        engine.start_profile(axis_index, _continuous(controller, axis_index, direction))
+    else:
+        _start_preset(controller, axis_index)
+
+
+def preset_target(controller: Controller, axis_index: int) -> int:
+    """Where a preset move ends, whole counts: D x SCLD truncated; relative to the commanded position with MA0.
+
+    A move that pre-empts another counts from where the axis is commanded to be at that moment (assumed).
+    """
+    counts = int(controller.settings.counts("D", axis_index).to_integral_value(ROUND_DOWN))
+    if controller.settings.flag("MA", axis_index):
+        return counts
+    return controller.engine.commanded_position(axis_index) + counts
+
+
+def _start_preset(controller: Controller, axis_index: int) -> None:
+    engine = controller.engine
+    state = engine.profile_state(axis_index)
+    target = preset_target(controller, axis_index)
+    velocity = float(controller.settings.counts("V", axis_index))
+    if velocity == 0 or (target == state.position and state.velocity == 0):
+        return
+    try:
+        segments = plan_preset(state.position, state.velocity, target, velocity, *ramps(controller, axis_index))
+    except TargetOvershot:
+        engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
+        controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
+        segments = stop_segments(controller, axis_index, "AD")
+    engine.start_profile(axis_index, segments)
+
+
+def _continuous(controller: Controller, axis_index: int, direction: int) -> Segments:
+    state = controller.engine.profile_state(axis_index)
+    velocity = direction * float(controller.settings.counts("V", axis_index))
+    return plan_continuous(state.position, state.velocity, velocity, *ramps(controller, axis_index))
+
+
+def ramps(controller: Controller, axis_index: int) -> tuple[float, float, float, float]:
+    """A, AD, AA, ADA in force, counts/s2: the order the planner takes them in."""
+    counts = controller.settings.counts
+    return (
+        float(counts("A", axis_index)),
+        float(counts("AD", axis_index)),
+        float(counts("AA", axis_index)),
+        float(counts("ADA", axis_index)),
+    )
+
+
+def stop_segments(controller: Controller, axis_index: int, ramp: str) -> Segments:
+    """The profile that brings an axis to rest at a deceleration (AD, LHAD, LSAD) and its average partner.
+
+    A partner outside the S-curve rule is left out: a stop is never refused (assumed).
+    """
+    state = controller.engine.profile_state(axis_index)
+    maximum = float(controller.settings.counts(ramp, axis_index))
+    average = float(controller.settings.counts(f"{ramp}A", axis_index))
+    if not maximum <= 2 * average <= 2 * maximum:
+        average = maximum
+    return plan_stop(state.position, state.velocity, maximum, average)
+
+
+@handles("PSET")
+def set_position(controller: Controller, command: Command) -> Lines:
+    """PSET: the present commanded position becomes the value given; the standing error is kept."""
+    if not command.argument:
+        raise CommandError(INCORRECT_DATA)
+    require_rest(controller, command)
+    row = command.row
+    assert row is not None
+    settings = controller.settings
+    placed = place_values(controller.substitute(command), settings.axes_in_use)
+    values: dict[int, int] = {}
+    for index, value in enumerate(placed):
+        if value is not None:
+            number = checked_number(value, settings.range_in_force(row, index), field=index + 1, fields=2)
+            values[index] = int(Decimal(number * settings.factor("distance", index)).to_integral_value(ROUND_DOWN))
+    for index, counts in values.items():
+        controller.engine.set_position(index, counts)
+    return None
+
+
+@applies("MA", "MC", "JOG", "JOY")
+def apply_modes(controller: Controller, command: Command, changed: list[int]) -> None:
+    """AS bits 6 to 9 show the modes."""
+    for axis_index in changed:
+        controller.refresh_axis_bits(axis_index)

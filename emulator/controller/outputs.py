@@ -1,0 +1,56 @@
+"""Programmable outputs: OUT and OUTALL."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from typing import TYPE_CHECKING
+
+from emulator.controller import words
+from emulator.controller.dispatch import Lines, handles
+from emulator.controller.settings import bit_of
+from protocol.command import Command
+from protocol.errors import INCORRECT_DATA, INVALID_DATA, CommandError
+from protocol.reply_shapes import bit_line, word_line
+
+if TYPE_CHECKING:
+    from emulator.controller.controller import Controller
+
+OUTALL_FIELDS = 3
+AUXILIARY_OUTPUTS = 2
+"""OUT-A and OUT-B, the bits after the programmable outputs."""
+
+
+@handles("OUT")
+def out(controller: Controller, command: Command) -> Lines:
+    """OUT: set outputs left to right from output 1; alone it reports like TOUT."""
+    row = command.row
+    assert row is not None
+    if command.is_query:
+        bits = words.outputs(controller)
+        return [bit_line(bit_of(bits, command.bit)) if command.bit is not None else word_line(row, None, bits)]
+    count = output_count(controller)
+    if command.bit is not None and not 1 <= command.bit <= count:
+        raise CommandError(INVALID_DATA)
+    if "1" in command.mask[count:]:
+        raise CommandError(INCORRECT_DATA)
+    controller.settings.assign(command)
+    return None
+
+
+@handles("OUTALL")
+def out_all(controller: Controller, command: Command) -> Lines:
+    """OUTALL first,last,state."""
+    values = [value for value in controller.substitute(command).values if isinstance(value, Decimal)]
+    if len(values) != OUTALL_FIELDS or len(command.values) != OUTALL_FIELDS:
+        raise CommandError(INCORRECT_DATA)
+    first, last, state = (int(value) for value in values)
+    if not 1 <= first <= last <= output_count(controller) or state not in (0, 1):
+        raise CommandError(INVALID_DATA)
+    bits = controller.settings.bits("OUT")
+    controller.settings.store_bits("OUT", bits[: first - 1] + str(state) * (last - first + 1) + bits[last:])
+    return None
+
+
+def output_count(controller: Controller) -> int:
+    """Outputs of this unit, the auxiliary ones included."""
+    return controller.machine.io.outputs + AUXILIARY_OUTPUTS

@@ -1,0 +1,66 @@
+"""What the unit measures: positions, velocities, the analogue output, in the units reports are printed in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from decimal import ROUND_HALF_EVEN, Decimal
+from typing import TYPE_CHECKING, NamedTuple
+
+from emulator.engine import Engine
+from protocol.catalogue import Scale
+from protocol.numbers import divide
+
+if TYPE_CHECKING:
+    from emulator.controller.controller import Controller
+
+COUNTER_BITS = 32
+"""Width of the position counters; they wrap (Aries guide p.151, assumed H for the 6250)."""
+
+MEASURED_PLACES = 4
+VOLT_PLACES = 3
+"""Measured velocities and voltages are rounded to the places printed, where settings are truncated (assumed)."""
+
+
+class Reading(NamedTuple):
+    """A measured quantity of an axis: how to read it in counts (or volts), and which scale factor it is shown by."""
+
+    read: Callable[[Engine, int], float]
+    scale: Scale | None
+    places: int
+
+
+READINGS = {
+    "PC": Reading(Engine.commanded_position, "distance", 0),
+    "PE": Reading(Engine.encoder_position, "distance", 0),
+    "FB": Reading(Engine.feedback_position, "distance", 0),
+    "PER": Reading(Engine.position_error, "distance", 0),
+    "VEL": Reading(Engine.commanded_velocity, "velocity", MEASURED_PLACES),
+    "VELA": Reading(Engine.actual_velocity, "velocity", MEASURED_PLACES),
+    "DAC": Reading(Engine.dac_volts, None, VOLT_PLACES),
+}
+"""The readings by operand name."""
+
+SETTING_OPERANDS = frozenset({"A", "AD", "V", "D"})
+"""Settings that can be read as operands."""
+
+
+def wrapped(counts: int) -> int:
+    """A position as a 32-bit signed counter shows it."""
+    half = 1 << (COUNTER_BITS - 1)
+    return (counts + half) % (1 << COUNTER_BITS) - half
+
+
+def reading_in_user_units(controller: Controller, name: str, axis_index: int) -> Decimal:
+    """A reading in user units, at the decimals a report prints."""
+    reading = READINGS[name]
+    value = reading.read(controller.engine, axis_index)
+    if reading.scale == "distance":
+        value = wrapped(int(value))
+        factor = controller.settings.reading_factor(reading.scale, axis_index)
+        return Decimal(value) if factor == 1 else divide(Decimal(value), factor)
+    places = reading.places
+    if reading.scale is not None:
+        factor = controller.settings.reading_factor(reading.scale, axis_index)
+        places = controller.settings.places(reading.scale, axis_index, places)
+        return (Decimal(value) / factor).quantize(Decimal(1).scaleb(-places), ROUND_HALF_EVEN)
+    return Decimal(value).quantize(Decimal(1).scaleb(-places), ROUND_HALF_EVEN)

@@ -1,0 +1,127 @@
+"""The emulator as Python sees it: one or more units on one virtual time that only moves when told to.
+
+    emu = Emulator()
+    unit = emu.unit(0)
+    unit.send(b"DRIVE11:D4000:GO11\\r")
+    emu.advance(2.0)
+    unit.signals["axis1.position.commanded"]
+
+Everything that can be read or done from outside the wire comes from the registry (``emulator.registry``).
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from emulator.controller import Controller, Output
+from emulator.engine.machine_code import OnBuild
+from emulator.machine import Machine
+from emulator.registry import ACTIONS, Value, describe_signals, signal_of
+
+NS_PER_S = 1_000_000_000
+
+HOST_CHANNEL = 0
+"""The connection meant when none is named."""
+
+
+class Signals(Mapping[str, Value]):
+    """The readable signals of one unit by name; iterating gives the names."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._controller = controller
+        self._names = describe_signals(controller)
+
+    def __getitem__(self, name: str) -> Value:
+        if name not in self._names:
+            raise KeyError(f"no signal {name!r}; there are {', '.join(self._names)}")
+        return signal_of(name).read(self._controller)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+class Unit:
+    """One unit of an emulator: its wire end, its signals, its actions."""
+
+    def __init__(self, controller: Controller) -> None:
+        self.controller = controller
+        self.signals: Mapping[str, Value] = Signals(controller)
+        self._unread: defaultdict[int, bytearray] = defaultdict(bytearray)
+        self._log: list[Output] = []
+
+    def send(self, data: bytes, *, channel: int = HOST_CHANNEL) -> None:
+        """Bytes from a host, now."""
+        self.controller.receive(data, at_ns=self.controller.now_ns, channel=channel)
+        self._unread.setdefault(channel, bytearray())
+
+    def read(self, *, channel: int = HOST_CHANNEL) -> bytes:
+        """What the unit has sent this channel since last read; output for everyone reaches every channel."""
+        self._sort_output()
+        data = bytes(self._unread[channel])
+        self._unread[channel].clear()
+        return data
+
+    def take_output(self) -> list[Output]:
+        """The output since last asked with its virtual times, for every channel together."""
+        self._sort_output()
+        taken, self._log = self._log, []
+        return taken
+
+    def do(self, action: str, **parameters: Value) -> None:
+        """Carry out an action of the registry: ``unit.do("set_wire", name="enable", closed=False)``.
+
+        Raises:
+            KeyError: no such action, wire or parameter.
+        """
+        if action not in ACTIONS:
+            raise KeyError(f"no action {action!r}; there are {', '.join(ACTIONS)}")
+        ACTIONS[action].carry_out(self.controller, parameters)
+
+    def _sort_output(self) -> None:
+        for output in self.controller.take_output():
+            self._log.append(output)
+            channels = list(self._unread) or [HOST_CHANNEL] if output.channel is None else [output.channel]
+            for channel in channels:
+                self._unread[channel] += output.data
+
+
+class Emulator:
+    """Units on one virtual time.  They are powered up; the sign-on waits to be read."""
+
+    def __init__(self, machine: Machine | Sequence[Machine] | None = None, *, on_build: OnBuild | None = None) -> None:
+        machines = [machine or Machine.default()] if machine is None or isinstance(machine, Machine) else list(machine)
+        self.units = [Unit(Controller(each, on_build=on_build)) for each in machines]
+        for unit in self.units:
+            unit.controller.power_up()
+
+    def unit(self, index: int = 0) -> Unit:
+        """A unit by its place, from 0."""
+        return self.units[index]
+
+    @property
+    def time_s(self) -> float:
+        """Virtual time since the emulator was made."""
+        return self.units[0].controller.now_ns / NS_PER_S
+
+    def advance(self, seconds: float) -> None:
+        """Let virtual time pass in all units."""
+        self.advance_to(self.units[0].controller.now_ns + round(seconds * NS_PER_S))
+
+    def advance_to(self, at_ns: int) -> None:
+        """Let virtual time pass up to a moment (ns)."""
+        for unit in self.units:
+            unit.controller.advance(at_ns)
+
+    def run_until(self, condition: Callable[[], bool], *, timeout_s: float = 60.0) -> bool:
+        """Advance one system update after another until a condition holds; False if it never did within the time."""
+        controller = self.units[0].controller
+        end_ns = controller.now_ns + round(timeout_s * NS_PER_S)
+        while not condition():
+            if controller.now_ns >= end_ns:
+                return False
+            self.advance_to(min(controller.engine.next_system_update_ns, end_ns))
+        return True

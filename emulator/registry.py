@@ -1,0 +1,179 @@
+"""The control surface: every signal that can be read and every action that can be done from outside the wire.
+
+Each is declared once, as data: a name, a sentence, parameters with their units, a function.  The Python API is made
+from this table, and whatever comes later (recording, an HTTP API, a panel) is made from the same one.  Axis signals
+are declared once and exist for every axis as ``axis1.`` ... """
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+
+from emulator.controller import Controller
+from emulator.controller import words as status
+
+Value = float | int | bool | str
+
+NS_PER_S = 1_000_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Signal:
+    """Something to read: ``unit`` is empty for texts and bits."""
+
+    name: str
+    sentence: str
+    unit: str
+    read: Callable[[Controller], Value]
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter of an action: its type and, for numbers, its unit."""
+
+    name: str
+    kind: type
+    sentence: str
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """Something to do; the function gets the controller and the parameters by name."""
+
+    name: str
+    sentence: str
+    parameters: tuple[Parameter, ...]
+    function: Callable[..., None]
+
+    def carry_out(self, controller: Controller, values: Mapping[str, Value]) -> None:
+        """Check the parameters and do it.
+
+        Raises:
+            KeyError: a parameter is missing or unknown.
+            TypeError: a parameter has the wrong type.
+        """
+        expected = {parameter.name: parameter for parameter in self.parameters}
+        if set(values) != set(expected):
+            raise KeyError(
+                f"{self.name} takes {', '.join(expected) or 'nothing'}, not {', '.join(values) or 'nothing'}"
+            )
+        for name, value in values.items():
+            kind = expected[name].kind
+            if not isinstance(value, (int, float) if kind is float else kind):
+                raise TypeError(f"{self.name}: {name} must be {kind.__name__}, not {value!r}")
+        self.function(controller, **values)
+
+
+AxisRead = Callable[[Controller, int], Value]
+
+AXIS_SIGNALS: tuple[tuple[str, str, str, AxisRead], ...] = (
+    ("position.commanded", "commanded position as reported", "counts", lambda c, i: c.engine.commanded_position(i)),
+    ("position.encoder", "encoder position as reported", "counts", lambda c, i: c.engine.encoder_position(i)),
+    ("position.true", "where the shaft really is", "rev", lambda c, i: c.engine.true_position_rev(i)),
+    ("position.error", "commanded less actual position", "counts", lambda c, i: c.engine.position_error(i)),
+    ("velocity.commanded", "velocity of the profile", "counts/s", lambda c, i: c.engine.commanded_velocity(i)),
+    ("velocity.actual", "velocity seen by the encoder", "counts/s", lambda c, i: c.engine.actual_velocity(i)),
+    ("velocity.true", "how fast the shaft really turns", "rev/s", lambda c, i: c.engine.true_velocity_rev_s(i)),
+    ("acceleration.commanded", "of the profile", "counts/s2", lambda c, i: c.engine.commanded_acceleration(i)),
+    ("servo.proportional", "SGP term", "V", lambda c, i: c.engine.terms(i)["P"]),
+    ("servo.integral", "SGI term: the integrator's state", "V", lambda c, i: c.engine.terms(i)["I"]),
+    ("servo.velocity", "SGV term", "V", lambda c, i: c.engine.terms(i)["V"]),
+    ("servo.velocity_feedforward", "SGVF term", "V", lambda c, i: c.engine.terms(i)["VF"]),
+    ("servo.acceleration_feedforward", "SGAF term", "V", lambda c, i: c.engine.terms(i)["AF"]),
+    ("servo.output", "limited control signal before the converter", "V", lambda c, i: c.engine.terms(i)["output"]),
+    ("dac", "voltage at the analogue output", "V", lambda c, i: c.engine.dac_volts(i)),
+    ("drive", "the drive is on", "", lambda c, i: c.engine.is_enabled(i)),
+    ("moving", "a profile is running", "", lambda c, i: c.engine.is_moving(i)),
+    ("status", "AS, bit 1 first", "", status.axis_status),
+)
+
+UNIT_SIGNALS: tuple[Signal, ...] = (
+    Signal("time", "virtual time since power-up of the emulator", "s", lambda c: c.now_ns / NS_PER_S),
+    Signal("power", "the unit is switched on", "", lambda c: c.powered),
+    Signal("status.system", "SS, bit 1 first", "", status.system_status),
+    Signal("status.error", "ER, bit 1 first", "", status.error_status),
+    Signal("limits", "LIM, electrical", "", status.limit_inputs),
+    Signal("inputs", "IN, after levels and overrides", "", status.inputs),
+    Signal("outputs", "OUT, after overrides", "", status.outputs),
+)
+
+
+def _axis_signal(axis_index: int, name: str, sentence: str, unit: str, read: AxisRead) -> Signal:
+    return Signal(
+        f"axis{axis_index + 1}.{name}", f"axis {axis_index + 1}: {sentence}", unit, lambda c: read(c, axis_index)
+    )
+
+
+def _wire_signal(wire: str) -> Signal:
+    return Signal(f"wire.{wire}", f"contact {wire} is closed (grounded)", "", lambda c: c.wiring.closed(wire))
+
+
+def describe_signals(controller: Controller) -> dict[str, Signal]:
+    """Every signal a unit has, by name."""
+    signals = {signal.name: signal for signal in UNIT_SIGNALS}
+    for axis_index in range(controller.settings.axes):
+        for row in AXIS_SIGNALS:
+            signal = _axis_signal(axis_index, *row)
+            signals[signal.name] = signal
+    for wire in controller.wiring.names:
+        signals[f"wire.{wire}"] = _wire_signal(wire)
+    return signals
+
+
+@cache
+def signal_of(name: str) -> Signal:
+    """A signal by its name; whether a unit has it, ``describe_signals`` tells.
+
+    Raises:
+        KeyError: a name no unit could have.
+    """
+    for signal in UNIT_SIGNALS:
+        if signal.name == name:
+            return signal
+    head, _, rest = name.partition(".")
+    if head == "wire":
+        return _wire_signal(rest)
+    for row in AXIS_SIGNALS:
+        if row[0] == rest and head.startswith("axis"):
+            return _axis_signal(int(head.removeprefix("axis")) - 1, *row)
+    raise KeyError(name)
+
+
+def _set_wire(controller: Controller, name: str, closed: bool) -> None:
+    controller.wiring.set(name, closed=closed)
+
+
+def _cut_power(controller: Controller) -> None:
+    controller.power_down()
+
+
+def _restore_power(controller: Controller) -> None:
+    if not controller.powered:
+        controller.power_up()
+
+
+def _advance_time(controller: Controller, seconds: float) -> None:
+    controller.advance(controller.now_ns + round(seconds * NS_PER_S))
+
+
+ACTIONS: Mapping[str, Action] = {
+    action.name: action
+    for action in (
+        Action(
+            "set_wire",
+            "close (ground) or open a contact at the unit's terminals",
+            (Parameter("name", str, "the contact"), Parameter("closed", bool, "true grounds it")),
+            _set_wire,
+        ),
+        Action("cut_power", "switch the unit off; its motors coast", (), _cut_power),
+        Action("restore_power", "switch the unit on; it signs on", (), _restore_power),
+        Action(
+            "advance_time",
+            "let virtual time pass in this unit",
+            (Parameter("seconds", float, "how long", unit="s"),),
+            _advance_time,
+        ),
+    )
+}
