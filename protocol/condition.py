@@ -3,7 +3,7 @@
 Relations compare an operand (axis digit, name, optional bit) with a number or a bit pattern; ``AND``, ``OR`` and
 ``NOT`` are full words, worked strictly left to right; parentheses group.  In a pattern X matches anything and the
 leading ``b`` may be missing (seen in a host: ``WAIT(6AS=XXXX1)``); a pattern shorter than the word compares only its
-first bits. """
+first bits."""
 
 from __future__ import annotations
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from enum import Enum
+from functools import lru_cache
 from typing import NamedTuple
 
 NUL, BS, LF, CTRL_K, CR, XON, XOFF = 0, 8, 10, 11, 13, 17, 19
@@ -25,6 +26,10 @@ DEFAULT_MAX_COMMAND = 100
 BLANKS_KEPT_PER_CHARACTER = 4
 """Blanks are neutral but stay editable by BS until the delimiter; this bounds how many stay (ours, not the unit's)."""
 
+USUAL_LINE = 64
+"""Packets up to this length that hold whole lines are remembered: hosts send the same few over and over."""
+
+_LINE_ENDS = (b"\r", b"\n")
 _SPECIAL = re.compile(rb"[\x00\x08\x0b\x11\x13\r\n:;]")
 
 
@@ -75,6 +80,13 @@ class LineAssembler:
     def feed(self, data: bytes) -> Iterator[Token]:
         """Yield the tokens of ``data`` in order; the caller acts on each before the next is made (an ECHO0 inside
         a packet silences the rest of it)."""
+        if len(data) <= USUAL_LINE and data[-1:] in _LINE_ENDS and data[:1] != b"\n" and self._is_clear:
+            self._after_cr = data[-1] == CR
+            yield from _tokens_of_lines(data, self.max_command)
+        else:
+            yield from self._scan(data)
+
+    def _scan(self, data: bytes) -> Iterator[Token]:
         position = 0
         while position < len(data):
             match = _SPECIAL.search(data, position)
@@ -90,6 +102,11 @@ class LineAssembler:
             token = self._special(data[end], run.upper())
             if token is not None:
                 yield token
+
+    @property
+    def _is_clear(self) -> bool:
+        """Nothing of an earlier packet matters for the next, but a CR."""
+        return not (self._text or self._too_long or self._in_comment or self._line_had_colon)
 
     def _append(self, run: bytes) -> None:
         if self._in_comment or self._too_long:
@@ -144,3 +161,9 @@ class LineAssembler:
         text = self._text.decode("latin-1").strip(" \t")
         self._text.clear()
         return (TokenKind.COMMAND, text) if text else (when_empty, "")
+
+
+@lru_cache(maxsize=1024)
+def _tokens_of_lines(data: bytes, max_command: int) -> tuple[Token, ...]:
+    """The tokens of whole lines that arrive when nothing is half-typed."""
+    return tuple(LineAssembler(max_command)._scan(data))

@@ -84,6 +84,9 @@ class Framing:
         """A whole reply, without prompt."""
         rules = self.rules
         star = "*" if rules.asterisk else ""
+        if len(lines) == 1:
+            text = f"{star}{lines[0].label}{lines[0].value}" if rules.names else f"{star}{lines[0].value}"
+            return self.bot + text.encode("latin-1") + self.eot
         texts = [f"{star}{line.label if rules.names else ''}{line.value}".encode("latin-1") for line in lines]
         return self.bot + self.eol.join(texts) + self.eot
 
