@@ -29,6 +29,9 @@ WORDS: Final = {
     "design": "design choice",
 }
 
+NOT_YET: Final = " (accepted, no effect yet)"
+"""Said of values kept for parts of the unit that are not built."""
+
 LIMITS: Final = (
     "No OEM6250 was at hand. The manuals for this unit survive in part, and nothing was measured on hardware.",
     "The sign-on, the part number and the revision are placeholders; software that looks for its own product name "
@@ -116,7 +119,7 @@ def _entry(key: str, value: Any, node: Any) -> Entry:
     return Entry(
         key=key,
         value=_text(value),
-        what=str(schema.get("description", "")),
+        what=str(schema.get("description", "")) + ("" if about.get("acts", True) else NOT_YET),
         provenance=about.get("provenance", ""),
         confidence=about.get("confidence", ""),
         source=about.get("source", ""),

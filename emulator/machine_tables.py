@@ -21,13 +21,20 @@ Contact = Literal["closed", "open"]
 
 
 def known(
-    description: str, provenance: Provenance, confidence: str = "", source: str = "", **limits: Any
+    description: str,
+    provenance: Provenance,
+    confidence: str = "",
+    source: str = "",
+    *,
+    acts: bool = True,
+    **limits: Any,
 ) -> msgspec.Meta:
     """Meta of one field: what it is (with its unit), how sure we are, and the limits msgspec shall enforce.
 
-    `confidence` is H, M or L for inferred and assumed values, else empty.
+    `confidence` is H, M or L for inferred and assumed values, else empty. `acts` is False for a value that is kept
+    for a part of the unit that is not built: the ledger says so.
     """
-    extra = {"provenance": provenance, "confidence": confidence, "source": source}
+    extra = {"provenance": provenance, "confidence": confidence, "source": source, "acts": acts}
     return msgspec.Meta(description=description, extra=extra, **limits)
 
 
@@ -68,9 +75,9 @@ class Rp240(Table, frozen=True):
 class Options(Table, frozen=True):
     """What the order code of the unit includes."""
 
-    following: Annotated[bool, known("Following commands fitted", "assumed", "M")] = True
+    following: Annotated[bool, known("Following commands fitted", "assumed", "M", acts=False)] = True
     ani: Annotated[bool, known("analog feedback fitted; without it SFB2 is refused", "assumed", "M")] = False
-    expanded_memory: Annotated[bool, known("-M expanded memory fitted", "assumed", "M")] = False
+    expanded_memory: Annotated[bool, known("-M expanded memory fitted", "assumed", "M", acts=False)] = False
 
 
 class ReplyForm(Table, frozen=True):
@@ -111,9 +118,13 @@ _LEVEL_1 = ReplyForm(names=False, error_text=False, ok_prompt=False, bad_prompt=
 class InputBuffer(Table, frozen=True):
     """The command buffer behind the serial receiver, in bytes."""
 
-    size: Annotated[int, known("capacity, bytes", "assumed", "L", ge=64)] = 2000
-    xoff_at_left: Annotated[int, known("XOFF goes out when this many bytes are left", "assumed", "L", ge=0)] = 200
-    xon_at_left: Annotated[int, known("XON goes out when this many bytes are free again", "assumed", "L", ge=0)] = 1000
+    size: Annotated[int, known("capacity, bytes", "assumed", "L", ge=64, acts=False)] = 2000
+    xoff_at_left: Annotated[
+        int, known("XOFF goes out when this many bytes are left", "assumed", "L", ge=0, acts=False)
+    ] = 200
+    xon_at_left: Annotated[
+        int, known("XON goes out when this many bytes are free again", "assumed", "L", ge=0, acts=False)
+    ] = 1000
 
 
 class Serial(Table, frozen=True):
@@ -178,7 +189,7 @@ class Limits(Table, frozen=True):
 class Memory(Table, frozen=True):
     """User memory and its counts."""
 
-    total_bytes: Annotated[int, known("user memory, bytes", "documented", source="UG 83", ge=2000)] = 40_000
+    total_bytes: Annotated[int, known("user memory, bytes", "documented", source="UG 83", ge=2000, acts=False)] = 40_000
     program_bytes: Annotated[
         int, known("program part at start, bytes", "documented", source="UG 83", ge=1000, multiple_of=2)
     ] = 21_400
@@ -189,16 +200,25 @@ class Memory(Table, frozen=True):
         ),
     ] = 18_600
     minimum_part_bytes: Annotated[
-        int, known("smallest part MEMORY accepts, bytes", "documented", source="UG 83: up to 39,000 for programs", ge=2)
+        int,
+        known(
+            "smallest part MEMORY accepts, bytes",
+            "documented",
+            source="UG 83: up to 39,000 for programs",
+            ge=2,
+            acts=False,
+        ),
     ] = 1000
     segment_bytes: Annotated[int, known("compiled memory per segment, bytes", "assumed", "L", ge=1)] = 76
     programs: Annotated[int, known("programs", "documented", source="UG 83", ge=1)] = 100
-    var: Annotated[int, known("numeric variables", "documented", source="UG 74", ge=1)] = 150
-    varb: Annotated[int, known("binary variables", "documented", source="UG 74", ge=1)] = 25
-    vars: Annotated[int, known("string variables", "documented", source="UG 74", ge=1)] = 25
-    string_characters: Annotated[int, known("longest string, characters", "documented", source="UG 74", ge=1)] = 20
-    labels: Annotated[int, known("labels", "assumed", "M", ge=1)] = 250
-    compiled: Annotated[int, known("compiled programs", "assumed", "M", ge=1)] = 100
+    var: Annotated[int, known("numeric variables", "documented", source="UG 74", ge=1, acts=False)] = 150
+    varb: Annotated[int, known("binary variables", "documented", source="UG 74", ge=1, acts=False)] = 25
+    vars: Annotated[int, known("string variables", "documented", source="UG 74", ge=1, acts=False)] = 25
+    string_characters: Annotated[
+        int, known("longest string, characters", "documented", source="UG 74", ge=1, acts=False)
+    ] = 20
+    labels: Annotated[int, known("labels", "assumed", "M", ge=1, acts=False)] = 250
+    compiled: Annotated[int, known("compiled programs", "assumed", "M", ge=1, acts=False)] = 100
     nest_levels: Annotated[int, known("nesting of IF, loops and GOSUB", "assumed", "H", ge=1)] = 16
 
 
@@ -256,7 +276,9 @@ class Servo(Table, frozen=True):
 class EncoderInput(Table, frozen=True):
     """The encoder input stage, common to both axes."""
 
-    max_rate: Annotated[float, known("post-quadrature counts per second", "assumed", "L", gt=0)] = 1_600_000.0
+    max_rate: Annotated[float, known("post-quadrature counts per second", "assumed", "L", gt=0, acts=False)] = (
+        1_600_000.0
+    )
 
 
 class VelocityDrive(Table, frozen=True, tag_field="kind", tag="velocity_drive"):

@@ -35,10 +35,10 @@ FAST = 8.0
 PATIENCE_S = 3.0
 """How long bytes may be late on a busy machine before the session is given up."""
 QUIET_S = 0.03
-OPTIONAL_ENDS = (b"?", b"*", b"}")
+OPTIONAL_ENDS = (b"?", b"*", b"+", b"}")
 """A pattern that ends so may go on matching; only then it is worth waiting for more."""
-COASTING_S = 0.3
-"""Virtual time after a kill in which a motor comes to rest (from 10 rev/s in 0.1 s, then the servo settles)."""
+COASTING_S = 0.5
+"""Virtual time after a kill in which a motor comes to rest: 0.1 s from 10 rev/s, then time constants of the servo."""
 
 
 @dataclass(frozen=True)
