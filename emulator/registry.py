@@ -2,7 +2,7 @@
 
 Each is declared once, as data: a name, a sentence, parameters with their units, a function.  The Python API is made
 from this table, and whatever comes later (recording, an HTTP API, a panel) is made from the same one.  Axis signals
-are declared once and exist for every axis as ``axis1.`` ... """
+are declared once and exist for every axis as ``axis1.`` ..."""
 
 from __future__ import annotations
 

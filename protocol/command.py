@@ -49,7 +49,8 @@ class Command:
 
     ``text`` is the normalised form without unit address and ``!`` (what a program stores, TRACE shows, TCMDER reports);
     ``argument`` the field text; ``values`` the comma fields of numeric commands; ``mask`` the digits of packed binary
-    fields; ``bit`` and ``bit_value`` the parts of ``.n`` and ``.n-v``.
+    fields; ``bit`` and ``bit_value`` the parts of ``.n`` and ``.n-v``; ``spelled``
+    the name as written, which differs from ``name`` for an alias.
     """
 
     text: str
@@ -65,6 +66,7 @@ class Command:
     variable: VariableReference | None = None
     bit: int | None = None
     bit_value: str = ""
+    spelled: str = ""
 
     @property
     def is_query(self) -> bool:
@@ -256,6 +258,7 @@ def _build(
         variable=variable,
         bit=bit,
         bit_value=bit_value,
+        spelled=spelled,
     )
 
 

@@ -38,6 +38,7 @@ def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None)
         dac_bits=machine.servo.dac_bits,
         on_build=on_build,
         unit_factors=unit_factors(machine),
+        drive_off_to_zero=machine.drive_off_output == "zero",
     )
 
 

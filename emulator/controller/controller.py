@@ -28,7 +28,7 @@ from protocol.line import LineAssembler, Token, TokenKind
 from protocol.reply import Framing
 from protocol.status import AxisStatus, ErrorStatus
 
-NONVOLATILE_SETTINGS = ("STARTP", "ADDR", "CMDDIR", "ENCPOL", "DRPCHK", "XONOFF")
+NONVOLATILE_SETTINGS = ("STARTP", "ADDR", "CMDDIR", "ENCPOL", "DRPCHK", "MEMORY")
 """Settings that survive RESET and power-off (6K list of the knowledge base, assumed M for the 6000)."""
 
 COMMAND_WHILE_SILENT = "E"
@@ -57,6 +57,7 @@ class Controller:
         self.powered = False
         self.drive_faulted = [False] * self.settings.axes
         self.gain_sets: dict[int, list[AxisGains]] = {}
+        self._enable_lost = False
         self._lines: dict[int, LineAssembler] = {}
         self._transmitter = Transmitter()
         dispatch.apply_all(self)
@@ -82,6 +83,7 @@ class Controller:
         """Switch on: volatile settings at their defaults, sign-on sent, start-up program begun."""
         self.powered = True
         self._start()
+        self.interpreter.run()
 
     def power_down(self) -> None:
         """Switch off: nothing is answered, drives are off, the motors coast."""
@@ -185,6 +187,14 @@ class Controller:
         """The drive-fault input is at its active level (DRFLVL0: low)."""
         return self.wiring.drive_fault_grounded(axis_index) != self.settings.flag("DRFLVL", axis_index)
 
+    def check_drive_faults(self) -> None:
+        """Act on drive-fault inputs that are active; they are watched only with INFEN1."""
+        if not self.settings.flag("INFEN"):
+            return
+        for axis_index in range(self.settings.axes_in_use):
+            if self.drive_fault_active(axis_index) and not self.drive_faulted[axis_index]:
+                self._drive_fault(axis_index)
+
     # Characters.
 
     def _take(self, token: Token, channel: int) -> None:
@@ -234,12 +244,10 @@ class Controller:
 
     def _check_wires(self) -> None:
         """ENABLE and drive faults; end-of-travel inputs are watched by the servo itself."""
-        if not self.wiring.enable_grounded:
+        was_lost, self._enable_lost = self._enable_lost, not self.wiring.enable_grounded
+        if self._enable_lost and not was_lost:
             self._lose_enable()
-        if self.settings.flag("INFEN"):
-            for axis_index in range(self.settings.axes_in_use):
-                if self.drive_fault_active(axis_index) and not self.drive_faulted[axis_index]:
-                    self._drive_fault(axis_index)
+        self.check_drive_faults()
 
     def _lose_enable(self) -> None:
         """ENABLE opened: every drive is shut down whatever KDRIVE says, programs end (assumed M)."""
@@ -274,6 +282,7 @@ class Controller:
         self.settings.reset(keep=NONVOLATILE_SETTINGS)
         self.faults = Faults()
         self.drive_faulted = [False] * self.settings.axes
+        self._enable_lost = not self.wiring.enable_grounded
         self.engine.power_up()
         dispatch.apply_all(self)
         for axis_index in range(self.settings.axes):

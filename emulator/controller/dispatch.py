@@ -2,7 +2,7 @@
 
 A handler is called with the controller and the command and returns the lines of its reply, or None.  A setting
 without a handler is stored and reported straight from its catalogue row; afterwards the function registered with
-``applies`` carries the new value to where it acts. """
+``applies`` carries the new value to where it acts."""
 
 from __future__ import annotations
 

@@ -26,6 +26,7 @@ from protocol.command import Command, addressed_unit, is_immediate_text, parse_c
 from protocol.errors import (
     INVALID_CONDITIONS,
     MAXIMUM_COMMAND_LENGTH_EXCEEDED,
+    UNDEFINED_LABEL,
     CommandError,
 )
 from protocol.reply import ReplyLine
@@ -58,12 +59,13 @@ class Interpreter:
 
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
+        self._prompt_per_command = controller.machine.serial.prompt_per == "command"
         self._buffer: deque[Entry] = deque()
         self._buffered_characters = 0
         self._program_budget = PROGRAM_COMMANDS_PER_UPDATE
         self._waiting_entry: Entry | None = None
         self._program_entry: Entry | None = None
-        self._answered = False
+        self._abandoned = 0
         self.wait: Wait | None = None
         self.paused = False
         self.immediate_now = False
@@ -130,16 +132,17 @@ class Interpreter:
 
     def _read(self, text: str, channel: int, ends_line: bool) -> Entry | None:
         """The entry for a command text; None when it is for another unit of the chain."""
-        prompted = ends_line or self._controller.machine.serial.prompt_per == "command"
+        prompted = ends_line or self._prompt_per_command
         try:
             command = parse_command(text)
         except CommandError as error:
-            address = addressed_unit(text)
-            if not self._controller.answers_to(address):
+            if not self._controller.answers_to(addressed_unit(text)):
                 return None
             return Entry(text, None, error, channel, prompted)
-        if not self._controller.answers_to(command.address):
+        if command.address is not None and not self._controller.answers_to(command.address):
             return None
+        if command.spelled != command.name and command.spelled not in self._controller.machine.aliases:
+            return Entry(text, None, CommandError(UNDEFINED_LABEL), channel, prompted)
         return Entry(text, command, None, channel, prompted)
 
     # Carrying out.
@@ -186,7 +189,7 @@ class Interpreter:
             self._answer_unreadable(entry)
             return
         controller = self._controller
-        was_running = controller.programs.running
+        was_running, abandoned = controller.programs.running, self._abandoned
         self.channel = entry.channel
         try:
             if controller.programs.defining and controller.programs.stores(entry.command):
@@ -197,14 +200,20 @@ class Interpreter:
         except CommandError as error:
             self._fail(entry, error)
             return
+        if self._abandoned != abandoned:
+            return
         if controller.programs.running and not was_running:
             self._program_entry = entry
             controller.programs.channel = entry.channel
             self._program_budget = PROGRAM_COMMANDS_PER_UPDATE
-        elif self.wait is not None:
+        elif self.wait is not None and not self._prompts_at_once(self.wait):
             self._waiting_entry = entry
         else:
             self._finish(entry, lines)
+
+    def _prompts_at_once(self, wait: Wait) -> bool:
+        """Machine option: the prompt of GO does not wait for the end of the move."""
+        return self._controller.machine.serial.go_prompt == "at_once" and isinstance(wait, MotionWait)
 
     def _carry_out_immediate(self, entry: Entry) -> None:
         """Carry a command out ahead of everything that waits; it never waits itself."""
@@ -213,6 +222,7 @@ class Interpreter:
             return
         self.immediate_now = True
         self.channel = entry.channel
+        abandoned = self._abandoned
         try:
             if entry.command.row is None or entry.command.row.immediate == "buffered":
                 raise CommandError(INVALID_CONDITIONS)
@@ -220,7 +230,8 @@ class Interpreter:
         except CommandError as error:
             self._fail(entry, error)
         else:
-            self._finish(entry, lines)
+            if self._abandoned == abandoned:
+                self._finish(entry, lines)
         finally:
             self.immediate_now = False
         self.run()
@@ -240,9 +251,6 @@ class Interpreter:
             self._finish(entry, None)
 
     def _finish(self, entry: Entry, lines: dispatch.Lines) -> None:
-        if self._answered:
-            self._answered = False
-            return
         framing = self._controller.framing
         data = framing.reply(lines) if lines else b""
         if entry.prompted:
@@ -265,10 +273,9 @@ class Interpreter:
             self.wait = wait
 
     def start_program(self, name: str) -> None:
-        """Begin a program that nobody typed (STARTP); what it says goes to everyone."""
+        """Have a program that nobody typed (STARTP) carried out next; what it says goes to everyone."""
         self._controller.programs.channel = None
         self._controller.programs.call(name)
-        self.run()
 
     def say(self, lines: list[ReplyLine]) -> None:
         """Send lines that no query asked for to whoever started what runs."""
@@ -277,8 +284,9 @@ class Interpreter:
     def discard(self) -> None:
         """Empty the buffer and end program execution.
 
-        A move under way still ends with its prompt; a dwell or condition ends here.
+        A move under way still ends with its prompt; a dwell, a condition or a pause ends here.
         """
+        self.paused = False
         self._buffer.clear()
         self._buffered_characters = 0
         self._controller.programs.halt()
@@ -287,9 +295,8 @@ class Interpreter:
 
     def abandon(self) -> None:
         """Power-down or RESET: nothing of what waits will ever be answered, the command under way included."""
-        self._answered = True
+        self._abandoned += 1
         self._waiting_entry = None
         self._program_entry = None
         self.discard()
         self.wait = None
-        self.paused = False

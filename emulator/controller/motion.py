@@ -114,6 +114,8 @@ def start(controller: Controller, axis_index: int) -> None:
         engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
         return
+    if engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask:
+        controller.faults.clear(ErrorStatus.TARGET_ZONE_TIMEOUT.mask)
     engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
     controller.faults.clear(ErrorStatus.HARD_LIMIT_HIT.mask | ErrorStatus.SOFT_LIMIT_HIT.mask)
     if controller.settings.flag("MC", axis_index):

@@ -15,6 +15,7 @@ from emulator.controller.readings import READINGS, SETTING_OPERANDS, reading_in_
 from emulator.engine import Signal
 from protocol.condition import Condition, Operand, Relation, Value, evaluate, relations
 from protocol.errors import COMMAND_NOT_IMPLEMENTED, INCORRECT_AXIS, INVALID_DATA, CommandError
+from protocol.status import AxisStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -72,23 +73,34 @@ class Operands:
         engine = self._controller.engine
         engine.clear_watches()
         masks: dict[int, int] = {}
-        slot = 0
+        slots = iter(range(VALUE_WATCH_SLOTS))
         for relation in relations(condition):
-            operand = relation.left
-            if operand.name == "AS":
-                axis_index = self._axis_index(operand)
-                masks[axis_index] = masks.get(axis_index, 0) | (1 << (operand.bit - 1) if operand.bit else 0xFFFFFFFF)
-            elif operand.name == "MOV":
-                masks = {index: masks.get(index, 0) | 1 for index in range(self._controller.settings.axes_in_use)}
-            elif operand.name in Signal.__members__ and slot < VALUE_WATCH_SLOTS:
-                self._arm_value(slot, relation)
-                slot += 1
+            sides = [relation.left, relation.right] if isinstance(relation.right, Operand) else [relation.left]
+            for operand in sides:
+                self._add_status_bits(masks, operand)
+                if operand.name in Signal.__members__ and (slot := next(slots, None)) is not None:
+                    self._arm(slot, relation, operand)
         for axis_index, mask in masks.items():
             engine.watch_status(axis_index, mask)
 
-    def _arm_value(self, slot: int, relation: Relation) -> None:
-        right = relation.right
-        threshold = self.read(right) if isinstance(right, Operand) else right
+    def _add_status_bits(self, masks: dict[int, int], operand: Operand) -> None:
+        if operand.name == "AS":
+            axis_index = self._axis_index(operand)
+            masks[axis_index] = masks.get(axis_index, 0) | (1 << (operand.bit - 1) if operand.bit else 0xFFFFFFFF)
+        elif operand.name == "MOV":
+            for axis_index in range(self._controller.settings.axes_in_use):
+                masks[axis_index] = masks.get(axis_index, 0) | AxisStatus.MOVING.mask
+
+    def _arm(self, slot: int, relation: Relation, operand: Operand) -> None:
+        """Against a number the crossing counts; of two operands either may move, so any change of either."""
+        if isinstance(relation.right, Operand):
+            axis_index = self._axis_index(operand)
+            present = READINGS[operand.name].read(self._controller.engine, axis_index)
+            self._controller.engine.watch_value(slot, axis_index, operand.name, "<>", float(present))
+        else:
+            self._arm_crossing(slot, relation, relation.right)
+
+    def _arm_crossing(self, slot: int, relation: Relation, threshold: Decimal | str) -> None:
         sign = _OPPOSITE[relation.sign] if evaluate(relation, self.read) else relation.sign
         axis_index = self._axis_index(relation.left)
         scale = READINGS[relation.left.name].scale

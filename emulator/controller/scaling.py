@@ -3,7 +3,7 @@
 With SCALE0 accelerations and velocities are in encoder revolutions (ERES counts), distances in counts; with SCALE1
 each kind has its scale factor (SCLA, SCLV, SCLD ...).  A value keeps the factor it was entered with, so changing
 SCALE or a factor later neither moves a stored target nor costs a digit: counts = value x factor, exactly (6000 PG
-p.197: values are scaled when they are entered). """
+p.197: values are scaled when they are entered)."""
 
 from __future__ import annotations
 

@@ -45,6 +45,13 @@ def turn_on(controller: Controller, axis_index: int) -> None:
     controller.faults.clear(ErrorStatus.POSITION_ERROR_EXCEEDED.mask | ErrorStatus.DRIVE_FAULT.mask)
     if controller.wiring.enable_grounded:
         controller.faults.clear(ErrorStatus.ENABLE_INPUT_OPEN.mask)
+    controller.check_drive_faults()
+
+
+@applies("INFEN", "DRFLVL")
+def apply_drive_fault_watch(controller: Controller, command: Command, changed: list[int]) -> None:
+    """A fault that is there when the watch begins acts at once (6250 UG: the program stops at INFEN1)."""
+    controller.check_drive_faults()
 
 
 @applies(*GAIN_COMMANDS)

@@ -1,7 +1,7 @@
 """Every setting of the unit: what the host has set, in the units it was set in, and how it is reported.
 
 All of it follows from the catalogue: a row that only stores and reports needs nothing here.  Settings of the serial
-port exist once for each port (PORT chooses which one is meant). """
+port exist once for each port (PORT chooses which one is meant)."""
 
 from __future__ import annotations
 
@@ -210,9 +210,10 @@ class Settings:
 
     def reset(self, *, keep: Iterable[str]) -> None:
         """Everything to power-up defaults, but the settings named in ``keep``."""
-        kept_numbers = {name: self._numbers[name] for name in keep if name in self._numbers}
-        kept_bits = {name: self._bits[name] for name in keep if name in self._bits}
-        kept_names = {name: self._names[name] for name in keep if name in self._names}
+        kept_keys = {key for name in keep for key in _keys_of(name)}
+        kept_numbers = {key: self._numbers[key] for key in kept_keys if key in self._numbers}
+        kept_bits = {key: self._bits[key] for key in kept_keys if key in self._bits}
+        kept_names = {key: self._names[key] for key in kept_keys if key in self._names}
         self._entered.clear()
         for row in commands().values():
             if row.kind == "setting":
@@ -231,8 +232,7 @@ class Settings:
             self.assign(parse_command(f"{name}{fields}"))
 
     def _set_default(self, row: CommandRow) -> None:
-        for port in (1, 2) if row.name in PORT_SETTINGS else (HOST_PORT,):
-            key = _port_key(row.name, port) if row.name in PORT_SETTINGS else row.name
+        for key in _keys_of(row.name):
             if row.reply == "numbers":
                 values = default_values(row)
                 self._numbers[key] = [Quantity(value, self._default_factor(row)) for value in values]
@@ -331,7 +331,7 @@ class Settings:
         scale = row.fields.scale
         if scale is None:
             return allowed
-        places = self.places(scale, index, allowed.places)
+        places = self.places_of(row, index, allowed.places)
         factor = self.factor(scale, index)
         if scale in DISTANCE_SCALES:
             largest = largest_distance(places)
@@ -343,8 +343,14 @@ class Settings:
         return Range(Decimal(0) if row.name in FOLLOWED else low, high, max(places, 5) if not self.scaled else places)
 
     def _places_to_report(self, row: CommandRow, index: int) -> int:
-        unscaled = places_of(row)
-        return self.places(row.fields.scale, index, unscaled) if row.fields.scale else unscaled
+        return self.places_of(row, index, places_of(row))
+
+    def places_of(self, row: CommandRow, index: int, unscaled_places: int) -> int:
+        """Decimals a field of this command has now; ratios keep their own while unscaled."""
+        scale = row.fields.scale
+        if scale is None or (row.fields.number_format == "shortest" and not self.scaled):
+            return unscaled_places
+        return self.places(scale, index, unscaled_places)
 
 
 def bit_of(bits: str, number: int | None) -> str:
@@ -360,6 +366,11 @@ def bit_of(bits: str, number: int | None) -> str:
 
 def _port_key(name: str, port: int) -> str:
     return f"{name}@{port}"
+
+
+def _keys_of(name: str) -> Sequence[str]:
+    """Where a setting is kept: once, or once for each serial port."""
+    return [_port_key(name, port) for port in (1, 2)] if name in PORT_SETTINGS else [name]
 
 
 def _row_of(command: Command) -> CommandRow:

@@ -46,7 +46,6 @@ def kill(controller: Controller, command: Command) -> Lines:
     kill_axes(controller, range(controller.settings.axes_in_use) if named is None else named)
     controller.faults.latch(ErrorStatus.STOP_OR_KILL_ISSUED)
     if named is None:
-        controller.interpreter.paused = False
         controller.interpreter.discard()
     return None
 

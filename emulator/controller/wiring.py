@@ -1,7 +1,7 @@
 """The wires at the unit's terminals: contacts that are closed (grounded) or open, and the analogue voltages.
 
 This is the one interface through which the outside (machine file, Python, later a panel) drives inputs.  A change is
-seen by the unit at its next system update. """
+seen by the unit at its next system update."""
 
 from __future__ import annotations
 

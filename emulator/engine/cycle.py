@@ -113,6 +113,8 @@ def servo_axis(unit: Record, axis: Record) -> None:
     else:
         axis["commanded_counts"] = axis["feedback_counts"]
         volts = open_loop(axis)
+        if axis["enabled"] == 0 and unit["drive_off_to_zero"] != 0:
+            volts = 0.0
     volts = limited(axis, volts)
     axis["control_v"] = volts
     axis["dac_v"] = convert_output(unit, axis["output_sign"] * volts)

@@ -76,6 +76,7 @@ class Engine(AxisReadings):
         dac_bits: int = DEFAULT_DAC_BITS,
         on_build: OnBuild | None = None,
         unit_factors: UnitFactors | None = None,
+        drive_off_to_zero: bool = False,
     ) -> None:
         if not 1 <= len(axes) <= MAX_AXES:
             raise ValueError(f"a unit has 1 to {MAX_AXES} axes, not {len(axes)}")
@@ -89,7 +90,11 @@ class Engine(AxisReadings):
         self._stale = True
         self._kernel = load_kernel(on_build)
         self._calls: Calls = self._kernel.bind(self._memory)
-        write_fields(self._memory.unit, UNIT, {"axis_count": len(axes), **dac_fields(dac_bits)})
+        write_fields(
+            self._memory.unit,
+            UNIT,
+            {"axis_count": len(axes), "drive_off_to_zero": drive_off_to_zero, **dac_fields(dac_bits)},
+        )
         for axis_index, hardware in enumerate(axes):
             self._power_up(axis_index, hardware)
         self.set_rates(rates)

@@ -35,6 +35,7 @@ UNIT_FIELDS: Fields = (
     ("dac_steps_per_volt", FLOAT, "converter steps per volt"),
     ("dac_lowest_code", FLOAT, "most negative converter code"),
     ("dac_highest_code", FLOAT, "most positive converter code"),
+    ("drive_off_to_zero", INT, "1 = the output of a drive that is off is 0 V, 0 = it is SOFFS"),
     ("wires", INT, "electrical state of limits, homes, drive faults and ENABLE, one bit each, 1 = grounded"),
     ("reported_wires", INT, "state of `wires` at the last WIRES event"),
     ("inputs", INT, "electrical state of the programmable inputs, bit 0 = input 1, 1 = grounded"),

@@ -1,0 +1,132 @@
+"""The command line: `oem6250 serve [MACHINE.toml] [options]`.
+
+argparse rather than a richer library, because `--help` and `--version` must answer within 0.15 s and importing one of
+those takes longer than that by itself. For the same reason nothing heavy is imported before something is served.
+Every mistake of the user is one line on stderr and exit status 2.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NoReturn
+
+from emulator import __version__
+from emulator.options import ServeOptions
+
+if TYPE_CHECKING:
+    from emulator.server import Build
+
+DEFAULT_TCP = ("127.0.0.1", 6250)
+MAX_SPEED = 1e6
+BAUD_RANGE = range(110, 921_601)
+
+EXAMPLES = """\
+examples:
+  oem6250 serve                          the default machine on 127.0.0.1:6250 and a virtual serial port
+  oem6250 serve axis.toml --speed 20     a machine file, twenty times faster than real time
+  oem6250 serve --tcp 127.0.0.1:0 --pty none --announce -    for a test: a free port, told as JSON on stdout
+"""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"oem6250: {message}\n")
+
+
+def main(arguments: Sequence[str] | None = None, *, build: Build | None = None) -> int:
+    """Run the command line; returns the exit status. `build` makes other controllers than the OEM6250 (tests do)."""
+    parser = _parser()
+    parsed = parser.parse_args(arguments)
+    if parsed.command is None:
+        parser.print_help()
+        return 0
+    options = _serve_options(parsed)
+    from emulator.server import serve
+
+    return serve(options, build)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="oem6250",
+        description="An emulator of the Parker OEM6250 motion controller.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action="version", version=f"oem6250 {__version__}")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
+    _add_serve(commands)
+    return parser
+
+
+def _add_serve(commands: argparse._SubParsersAction[_Parser]) -> None:
+    serve = commands.add_parser(
+        "serve",
+        help="run one controller and let hosts connect to it",
+        description="Run one controller and let hosts connect to it, until SIGINT or SIGTERM.",
+        allow_abbrev=False,
+    )
+    add = serve.add_argument
+    add("machine", nargs="?", metavar="MACHINE.toml", help="machine file (default: two wired axes)")
+    add("--tcp", action="append", type=_address, metavar="HOST:PORT", help="listen here; may be repeated, port 0 picks "
+        "a free one (default: 127.0.0.1:6250)")  # fmt: skip
+    add("--no-tcp", action="store_true", help="do not listen on TCP")
+    add("--pty", default="auto", metavar="PATH|auto|none", help="virtual serial port: where to put the link to it "
+        "(default: auto, in your runtime directory)")  # fmt: skip
+    add("--speed", type=_speed, default=1.0, metavar="1|N|max", help="virtual over real time (default: 1)")
+    add("--line", type=_line, default=None, metavar="instant|BAUD", help="speed of the serial line (default: instant)")
+    add("--state", default="none", metavar="FILE|none", help="file of the non-volatile memory (default: none)")
+    add("--announce", metavar="-|FILE", help="once ready, write where to connect as one line of JSON")
+    add("-v", dest="verbosity", action="count", default=0, help="log what happens and the traffic; -vv logs all")
+    add("--version", action="version", version=f"oem6250 {__version__}")
+
+
+def _serve_options(parsed: argparse.Namespace) -> ServeOptions:
+    if parsed.no_tcp and parsed.tcp:
+        _parser().error("argument --no-tcp: not allowed with --tcp")
+    tcp = () if parsed.no_tcp else tuple(parsed.tcp or (DEFAULT_TCP,))
+    pty = None if parsed.pty == "none" or (parsed.pty == "auto" and sys.platform == "win32") else parsed.pty
+    return ServeOptions(
+        machine=parsed.machine,
+        tcp=tcp,
+        pty=pty,
+        speed=parsed.speed,
+        line_baud=parsed.line,
+        state=None if parsed.state == "none" else parsed.state,
+        announce=parsed.announce,
+        verbosity=parsed.verbosity,
+    )
+
+
+def _address(text: str) -> tuple[str, int]:
+    """`127.0.0.1:6250`, `localhost:0`, `[::1]:6250`, `:6250` (every interface)."""
+    host, colon, port = text.rpartition(":")
+    bracketed = host.startswith("[") and host.endswith("]")
+    if not colon or not port.isascii() or not port.isdigit() or int(port) > 65535 or (":" in host and not bracketed):
+        raise argparse.ArgumentTypeError(f"{text!r} is not HOST:PORT with a port from 0 to 65535 (IPv6: [::1]:6250)")
+    return (host[1:-1] if bracketed else host), int(port)
+
+
+def _speed(text: str) -> float | None:
+    if text == "max":
+        return None
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = 0.0
+    if not 1 / MAX_SPEED <= speed <= MAX_SPEED:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a positive number (at most {MAX_SPEED:.0f}) or max")
+    return speed
+
+
+def _line(text: str) -> int | None:
+    if text == "instant":
+        return None
+    if not (text.isascii() and text.isdigit() and int(text) in BAUD_RANGE):
+        raise argparse.ArgumentTypeError(f"{text!r} is neither instant nor a baud rate (110 to 921600)")
+    return int(text)

@@ -1,0 +1,224 @@
+"""From options to a running emulator and back: ports, machines, announcement, signals, exit status.
+
+The order at the start: ports first (a port in use is told at once, not after the machine is built), then the machine,
+in a thread, so that a signal is obeyed even while the servo kernel is being compiled; then the engine thread; then
+the announcement. At the end: no new connections, engine thread stopped, everything closed.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import logging
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, Protocol
+
+from emulator.channel import ControllerLike
+from emulator.clock import Clock
+from emulator.logs import event_line, set_up_logging
+from emulator.options import ServeOptions
+from emulator.pacing import EngineThread
+from emulator.ports import PortError, TcpPort
+
+_log = logging.getLogger("oem6250.server")
+Build = Callable[[ServeOptions], Sequence[ControllerLike]]
+"""Makes the controllers of a server; runs in a thread of its own. Raises UserError for what is the user's to mend."""
+
+
+class UserError(Exception):
+    """Something the user can mend; the text is one line."""
+
+
+class _Port(Protocol):
+    def serve(self, loop: asyncio.AbstractEventLoop, engine: EngineThread, unit_index: int = 0) -> None: ...
+    def stop_accepting(self) -> None: ...
+    def close(self) -> None: ...
+
+
+def serve(options: ServeOptions, build: Build | None = None) -> int:
+    """Serve until a signal. Exit status: 0, 1 after a crash of the engine thread, 2 for a user's mistake."""
+    set_up_logging(options.verbosity)
+    try:
+        with asyncio.Runner(loop_factory=asyncio.SelectorEventLoop) as runner:
+            return runner.run(Server(options, build or build_controllers).run())
+    except (PortError, UserError) as error:
+        print(f"oem6250: {error}", file=sys.stderr)
+        return 2
+
+
+def build_controllers(options: ServeOptions) -> Sequence[ControllerLike]:
+    """The machine of the options, as the controllers of its units."""
+    from emulator.emulator import Emulator
+    from emulator.machine import Machine, MachineError
+
+    try:
+        machine = Machine.load(Path(options.machine)) if options.machine else Machine.default()
+    except MachineError as error:
+        raise UserError(str(error)) from None
+    emulator = Emulator(machine, on_build=_say)
+    return [unit.controller for unit in emulator.units]
+
+
+class Server:
+    """One running emulator. `run` returns when it was told to stop."""
+
+    def __init__(self, options: ServeOptions, build: Build) -> None:
+        self._options = options
+        self._build = build
+        self._stop = asyncio.Event()
+        self._tcp: list[TcpPort] = []
+        self._pty: Any = None
+        self._status = 0
+
+    async def run(self) -> int:
+        """Open, build, serve, close. Raises PortError and UserError."""
+        loop = asyncio.get_running_loop()
+        self._handle_signals(loop)
+        try:
+            self._open_ports()
+            controllers = await self._build_or_stop(loop)
+            if controllers is not None:
+                await self._serve(loop, controllers)
+        finally:
+            for port in self._ports():
+                port.close()
+        return self._status
+
+    def _ports(self) -> list[_Port]:
+        return [*self._tcp, *([self._pty] if self._pty else [])]
+
+    def _open_ports(self) -> None:
+        for host, port in self._options.tcp:
+            self._tcp.append(TcpPort(host, port))
+        if self._options.pty is not None:
+            self._pty = _open_pty(self._options.pty)
+
+    def _handle_signals(self, loop: asyncio.AbstractEventLoop) -> None:
+        for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+            if hasattr(signal, name):
+                with contextlib.suppress(NotImplementedError):
+                    loop.add_signal_handler(getattr(signal, name), self._stop.set)
+
+    async def _build_or_stop(self, loop: asyncio.AbstractEventLoop) -> Sequence[ControllerLike] | None:
+        """The controllers, or None if a signal came first (the thread that still builds dies with the process)."""
+        built: asyncio.Future[Sequence[ControllerLike]] = loop.create_future()
+        threading.Thread(target=self._build_there, args=(loop, built), name="build", daemon=True).start()
+        stopped = asyncio.ensure_future(self._stop.wait())
+        await asyncio.wait((built, stopped), return_when=asyncio.FIRST_COMPLETED)
+        if built.done():
+            stopped.cancel()
+            return built.result()
+        for port in self._ports():
+            port.close()
+        sys.stderr.flush()
+        os._exit(0)
+
+    def _build_there(self, loop: asyncio.AbstractEventLoop, built: asyncio.Future[Sequence[ControllerLike]]) -> None:
+        try:
+            controllers = self._build(self._options)
+        except BaseException as error:
+            loop.call_soon_threadsafe(built.set_exception, error)
+        else:
+            loop.call_soon_threadsafe(built.set_result, controllers)
+
+    async def _serve(self, loop: asyncio.AbstractEventLoop, controllers: Sequence[ControllerLike]) -> None:
+        start_ns = max((controller.now_ns for controller in controllers), default=0)
+        clock = Clock(self._options.speed, start_ns=start_ns, report=self._too_slow)
+        engine = EngineThread(controllers, clock, on_crash=partial(_soon, loop, self._crashed))
+        for port in self._ports():
+            port.serve(loop, engine)
+        engine.start()
+        self._tell()
+        try:
+            await self._stop.wait()
+        finally:
+            for port in self._ports():
+                port.stop_accepting()
+            stopped = engine.stop()
+            _log.info(event_line("stopped", **engine.lateness()._asdict()))
+        if not stopped:
+            self._leave_at_once()
+
+    def _leave_at_once(self) -> None:
+        """A controller is stuck: descriptors it may still write to are left to the end of the process."""
+        _log.error(event_line("engine thread does not end"))
+        sys.stderr.flush()
+        os._exit(1)
+
+    def _crashed(self) -> None:
+        self._status = 1
+        self._stop.set()
+
+    def _too_slow(self, factor: float) -> None:
+        asked = "max" if self._options.speed is None else self._options.speed
+        _log.warning(event_line("host too slow", asked_speed=asked, reached_speed=f"{factor:.3g}"))
+
+    # What is said once it runs.
+
+    def _addresses(self) -> list[str]:
+        return [address for port in self._tcp for address in port.addresses]
+
+    def _tell(self) -> None:
+        options = self._options
+        if options.line_baud is not None:
+            _say(f"--line {options.line_baud}: wire time is not emulated yet, replies leave at once")
+        if options.state is not None:
+            _say(f"--state {options.state}: nothing is kept over a restart yet, memory starts empty")
+        if options.announce is not None:
+            _announce(options.announce, self._announcement())
+        else:
+            _say_hints(self._addresses(), self._pty and str(self._pty.path))
+
+    def _announcement(self) -> str:
+        speed = "max" if self._options.speed is None else self._options.speed
+        pty = str(self._pty.path) if self._pty else None
+        return json.dumps({"tcp": self._addresses(), "pty": pty, "pid": os.getpid(), "speed": speed})
+
+
+def _soon(loop: asyncio.AbstractEventLoop, function: Callable[[], None]) -> None:
+    loop.call_soon_threadsafe(function)
+
+
+def _open_pty(link: str) -> Any:
+    try:
+        from emulator.ports.pty import PtyPort
+    except ImportError:
+        raise PortError(f"--pty {link}: this system has no pseudo-terminals; use --pty none and --tcp") from None
+    return PtyPort(link)
+
+
+def _announce(place: str, line: str) -> None:
+    """One line on stdout, or a file that appears complete."""
+    if place == "-":
+        print(line, flush=True)
+        return
+    path = Path(place)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        temporary.write_text(line + "\n")
+        temporary.replace(path)
+    except OSError as error:
+        raise UserError(f"--announce {place}: cannot be written ({error.strerror})") from None
+
+
+def _say(message: str) -> None:
+    """One line for the person who started it."""
+    print(f"oem6250: {message}", file=sys.stderr, flush=True)
+
+
+def _say_hints(addresses: Sequence[str], pty: str | None) -> None:
+    """Where to connect and what to type first; for a person, since programs use --announce."""
+    lines = ["OEM6250 is up; Ctrl-C ends it."]
+    if pty:
+        lines.append(f"  serial port   {pty}   (any baud rate; try: python3 -m serial.tools.miniterm --eol CR {pty})")
+    lines += [f"  TCP           {address}   (try: telnet {address.rpartition(':')[0].strip('[]')} "
+              f"{address.rpartition(':')[2]})" for address in addresses]  # fmt: skip
+    lines.append("  then type     DRIVE11  D4000  GO1  1TPE   each with Enter: axis 1 makes one revolution")
+    print("\n".join(lines), file=sys.stderr, flush=True)
