@@ -78,6 +78,7 @@ class EngineThread:
         self._selector = selectors.DefaultSelector()
         self._turns: deque[Channel] = deque()
         self._lingering: deque[Channel] = deque()
+        self._held: list[Channel] = []
         self._numbers = count()
         self._on_crash = on_crash
         self._stopping = False
@@ -219,12 +220,27 @@ class EngineThread:
         channel.waiting.append(item)
 
     def _take_turn(self, channel: Channel) -> None:
+        if isinstance(channel.waiting[0], bytes) and self._full(channel):
+            self._stop_reading(channel)
+            self._held.append(channel)
+            return
         item = channel.take()
         if isinstance(item, bytes):
             self._feed(channel, item)
         else:
             item()
         if channel.waiting:
+            self._turns.append(channel)
+
+    def _full(self, channel: Channel) -> bool:
+        return self._units[channel.unit_index].controller.input_full(channel.number)
+
+    def _release_held(self) -> None:
+        """Read on from connections whose unit has worked off enough of what they sent."""
+        for channel in [channel for channel in self._held if not self._full(channel)]:
+            self._held.remove(channel)
+            if channel.on_finished is None:
+                self._read(channel)
             self._turns.append(channel)
 
     def _feed(self, channel: Channel, data: bytes) -> None:
@@ -249,6 +265,8 @@ class EngineThread:
         self.clock.ran_to(at_ns, busy=self._busy)
         if self._lingering:
             self._release_lingering()
+        if self._held:
+            self._release_held()
         self._next_tick_ns = self._tick_after(began_ns)
 
     def _tick_after(self, began_ns: int) -> int:
@@ -320,6 +338,9 @@ class EngineThread:
 
     def _attach_here(self, channel: Channel) -> None:
         self._units[channel.unit_index].channels[channel.number] = channel
+        self._read(channel)
+
+    def _read(self, channel: Channel) -> None:
         for descriptor in channel.wire.descriptors:
             self._selector.register(descriptor, selectors.EVENT_READ, channel)
 

@@ -74,10 +74,9 @@ class Controller:
         """Motion, dwell, wait or program under way: the next output or effect may come by itself."""
         return self.interpreter.busy or any(self.engine.is_moving(i) for i in range(self.settings.axes))
 
-    @property
-    def input_full(self) -> bool:
-        """So many commands wait that more input should stay on the wire."""
-        return self.interpreter.full
+    def input_full(self, channel: int) -> bool:
+        """So many commands of this connection wait that more of its input should stay on the wire."""
+        return self.interpreter.full(channel)
 
     def power_up(self) -> None:
         """Switch on: volatile settings at their defaults, sign-on sent, start-up program begun."""

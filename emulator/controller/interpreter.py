@@ -16,7 +16,7 @@ paused           C (after PS, or after a stop under COMEXS1)
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -38,9 +38,9 @@ if TYPE_CHECKING:
 PROGRAM_COMMANDS_PER_UPDATE = 8
 """Commands a program carries out in one system update (assumed L: a few tenths of a millisecond each)."""
 
-MAX_BUFFERED_CHARACTERS = 1_000_000
-"""Characters of waiting commands beyond which a connection's input should be held back (ours: the wire holds the
-rest)."""
+MAX_BUFFERED_CHARACTERS = 65_536
+"""Characters of waiting commands of one connection beyond which more of its input stays on the wire (ours; the unit's
+own buffer of 2000 bytes belongs to the timed serial line)."""
 
 
 @dataclass(slots=True)
@@ -53,6 +53,11 @@ class Entry:
     channel: int | None
     prompted: bool
 
+    @property
+    def size(self) -> int:
+        """Characters it takes in the buffer, its delimiter included: empty lines wait their turn too."""
+        return len(self.text) + 1
+
 
 class Interpreter:
     """The command buffer of one unit and what it is waiting for."""
@@ -61,7 +66,7 @@ class Interpreter:
         self._controller = controller
         self._prompt_per_command = controller.machine.serial.prompt_per == "command"
         self._buffer: deque[Entry] = deque()
-        self._buffered_characters = 0
+        self._buffered_characters: Counter[int | None] = Counter()
         self._program_budget = PROGRAM_COMMANDS_PER_UPDATE
         self._waiting_entry: Entry | None = None
         self._program_entry: Entry | None = None
@@ -94,10 +99,9 @@ class Interpreter:
             and not self._controller.programs.running
         )
 
-    @property
-    def full(self) -> bool:
-        """More commands wait than is good for memory."""
-        return self._buffered_characters > MAX_BUFFERED_CHARACTERS
+    def full(self, channel: int) -> bool:
+        """More commands of this connection wait than is good for memory."""
+        return self._buffered_characters[channel] > MAX_BUFFERED_CHARACTERS
 
     # Commands coming in.
 
@@ -126,7 +130,7 @@ class Interpreter:
                 self.run()
             return
         self._buffer.append(entry)
-        self._buffered_characters += len(entry.text)
+        self._buffered_characters[entry.channel] += entry.size
         if self.wait is None:
             self.run()
 
@@ -169,7 +173,7 @@ class Interpreter:
         if not self._buffer:
             return False
         entry = self._buffer.popleft()
-        self._buffered_characters -= len(entry.text)
+        self._buffered_characters[entry.channel] -= entry.size
         self._carry_out(entry)
         return True
 
@@ -288,7 +292,7 @@ class Interpreter:
         """
         self.paused = False
         self._buffer.clear()
-        self._buffered_characters = 0
+        self._buffered_characters.clear()
         self._controller.programs.halt()
         if self.wait is not None and not isinstance(self.wait, MotionWait):
             self._end_wait()

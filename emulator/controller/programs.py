@@ -55,13 +55,10 @@ class Programs:
         self._stored: dict[str, list[str]] = {}
         self._frames: list[Frame] = []
         self.defining: str | None = None
+        self.running = False
+        """A program is being carried out (SS bit 3)."""
         self.channel: int | None = None
         """The connection that started what runs, and hears what it says."""
-
-    @property
-    def running(self) -> bool:
-        """A program is being carried out (SS bit 3)."""
-        return bool(self._frames)
 
     @property
     def names(self) -> list[str]:
@@ -166,12 +163,14 @@ class Programs:
         if len(self._frames) >= self._max_nesting:
             raise CommandError(NEST_LEVEL_TOO_DEEP)
         self._frames.append(Frame(name, list(lines)))
+        self.running = True
 
     def next_command(self) -> Command | None:
         """The next command of what runs; None when a program has come to its end (its caller goes on)."""
         frame = self._frames[-1]
         if frame.next_line >= len(frame.lines):
             self._frames.pop()
+            self.running = bool(self._frames)
             return None
         text = frame.lines[frame.next_line]
         frame.next_line += 1
@@ -180,6 +179,7 @@ class Programs:
     def halt(self) -> None:
         """End all program execution."""
         self._frames.clear()
+        self.running = False
 
     @property
     def executing(self) -> tuple[str, str] | None:

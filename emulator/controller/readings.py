@@ -7,8 +7,9 @@ from decimal import ROUND_HALF_EVEN, Decimal
 from typing import TYPE_CHECKING, NamedTuple
 
 from emulator.engine import Engine
-from protocol.catalogue import Scale
+from protocol.catalogue import CommandRow, Scale
 from protocol.numbers import divide
+from protocol.reply_shapes import format_number, places_of
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -64,3 +65,14 @@ def reading_in_user_units(controller: Controller, name: str, axis_index: int) ->
         places = controller.settings.places(reading.scale, axis_index, places)
         return (Decimal(value) / factor).quantize(Decimal(1).scaleb(-places), ROUND_HALF_EVEN)
     return Decimal(value).quantize(Decimal(1).scaleb(-places), ROUND_HALF_EVEN)
+
+
+def reading_text(controller: Controller, row: CommandRow, name: str, axis_index: int) -> str:
+    """A reading as a report prints it."""
+    scale = READINGS[name].scale
+    settings = controller.settings
+    if scale == "distance" and not settings.scaled:
+        return f"{wrapped(int(READINGS[name].read(controller.engine, axis_index))):+d}"
+    unscaled = places_of(row)
+    places = settings.places(scale, axis_index, unscaled) if scale else unscaled
+    return format_number(reading_in_user_units(controller, name, axis_index), row.fields.number_format, places)

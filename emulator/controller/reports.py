@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 from emulator.controller import words
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.readings import READINGS, VOLT_PLACES, reading_in_user_units
+from emulator.controller.readings import VOLT_PLACES, reading_in_user_units, reading_text
 from emulator.controller.settings import bit_of
 from protocol.catalogue import CommandRow, status_words
 from protocol.command import Command
 from protocol.fields import axis_indexes
 from protocol.numbers import format_fixed
 from protocol.reply import ReplyLine
-from protocol.reply_shapes import bit_line, label, numbers_line, places_of, word_line
+from protocol.reply_shapes import bit_line, label, numbers_line, word_line
 from protocol.status_report import bit_labels, status_table
 
 if TYPE_CHECKING:
@@ -71,12 +71,8 @@ def report_reading(controller: Controller, command: Command) -> Lines:
     """Positions, velocities and the analogue output of the axes."""
     row = _row(command)
     name = _READING_OF_REPORT[row.name]
-    scale = READINGS[name].scale
     indexes = axis_indexes(command, controller.settings.axes_in_use)
-    values = [reading_in_user_units(controller, name, index) for index in indexes]
-    unscaled = places_of(row)
-    places = [controller.settings.places(scale, index, unscaled) if scale else unscaled for index in indexes]
-    return [numbers_line(row, command.axis, values, places)]
+    return [ReplyLine(label(row, command.axis), ",".join(reading_text(controller, row, name, i) for i in indexes))]
 
 
 @handles(*_AXIS_WORDS)

@@ -316,7 +316,8 @@ class Settings:
     def _check_discrete(self, name: str, number: Decimal, index: int, fields: int) -> None:
         allowed = DISCRETE_VALUES.get(name)
         no_ani = name == "SFB" and number == ANI_FEEDBACK and not self._ani_fitted
-        if no_ani or (allowed is not None and int(number) not in allowed):
+        too_slow = name in FOLLOWED and 0 < number < self._acceleration_range[0]
+        if no_ani or too_slow or (allowed is not None and int(number) not in allowed):
             raise CommandError(INVALID_DATA if fields == 1 else f"{INVALID_DATA}-FIELD {index + 1}")
 
     def _turned(self, name: str, direction: Direction, index: int) -> Quantity:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -100,3 +101,38 @@ def test_a_raising_command_leaves_the_others_alone(tmp_path_factory: pytest.Temp
     assert status == 0
     assert 'event="controller raised"' in errors
     assert r"BOOM\r" in errors
+
+
+def send_some(sock: socket.socket, text: memoryview) -> int:
+    try:
+        return sock.send(text[:65536]) if text else 0
+    except BlockingIOError:
+        return 0
+
+
+def receive_some(sock: socket.socket) -> bytes:
+    try:
+        return sock.recv(65536)
+    except BlockingIOError:
+        return b""
+
+
+def test_commands_behind_a_long_dwell_wait_on_the_wire_and_none_is_lost(oem6250: Served) -> None:
+    commands = 60_000
+    with oem6250.connect() as sender, oem6250.connect() as other:
+        before = oem6250.resident_bytes()
+        sender.sock.setblocking(False)
+        text = memoryview(b"T1\r" + b"1D7\r" * commands + b"1TPC\r")
+        received = bytearray()
+        stopped = False
+        while text or not received.endswith(b"*1TPC+0\r\r\n> "):
+            text = text[send_some(sender.sock, text) :]
+            received += receive_some(sender.sock)
+            if not stopped:
+                other.sock.sendall(b"!1TAS.1\r")
+                assert other.read_until(b"> ") == b"*0\r\r\n> "
+                stopped = True
+        assert bytes(received) == b"\r\n> " * (1 + commands) + b"*1TPC+0\r\r\n> "
+        assert oem6250.resident_bytes() - before < 20_000_000
+        other.sock.sendall(b"1D4000\r")
+        other.read_until(b"> ")

@@ -71,6 +71,9 @@ class ToyController:
         output, self._output = self._output, []
         return output
 
+    def input_full(self, channel: int) -> bool:
+        return False
+
     def detach(self, channel: int) -> None:
         self.detached.append(channel)
         del self.detached[:-100]
