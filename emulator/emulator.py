@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from emulator.controller import Controller, Output
 from emulator.engine.machine_code import OnBuild
 from emulator.machine import Machine
-from emulator.registry import ACTIONS, Value, describe_signals, signal_of
+from emulator.registry import ACTIONS, Value, describe_signals
 
 NS_PER_S = 1_000_000_000
 
@@ -30,18 +30,18 @@ class Signals(Mapping[str, Value]):
 
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
-        self._names = describe_signals(controller)
+        self._signals = describe_signals(controller)
 
     def __getitem__(self, name: str) -> Value:
-        if name not in self._names:
-            raise KeyError(f"no signal {name!r}; there are {', '.join(self._names)}")
-        return signal_of(name).read(self._controller)
+        if name not in self._signals:
+            raise KeyError(f"no signal {name!r}; there are {', '.join(self._signals)}")
+        return self._signals[name].read(self._controller)
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._names)
+        return iter(self._signals)
 
     def __len__(self) -> int:
-        return len(self._names)
+        return len(self._signals)
 
 
 class Unit:

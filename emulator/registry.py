@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
 
 from emulator.controller import Controller
 from emulator.controller import words as status
@@ -61,7 +60,8 @@ class Action:
             )
         for name, value in values.items():
             kind = expected[name].kind
-            if not isinstance(value, (int, float) if kind is float else kind):
+            fits = isinstance(value, (int, float) if kind is float else kind)
+            if not fits or (isinstance(value, bool) and kind is not bool):
                 raise TypeError(f"{self.name}: {name} must be {kind.__name__}, not {value!r}")
         self.function(controller, **values)
 
@@ -120,25 +120,6 @@ def describe_signals(controller: Controller) -> dict[str, Signal]:
     for wire in controller.wiring.names:
         signals[f"wire.{wire}"] = _wire_signal(wire)
     return signals
-
-
-@cache
-def signal_of(name: str) -> Signal:
-    """A signal by its name; whether a unit has it, ``describe_signals`` tells.
-
-    Raises:
-        KeyError: a name no unit could have.
-    """
-    for signal in UNIT_SIGNALS:
-        if signal.name == name:
-            return signal
-    head, _, rest = name.partition(".")
-    if head == "wire":
-        return _wire_signal(rest)
-    for row in AXIS_SIGNALS:
-        if row[0] == rest and head.startswith("axis"):
-            return _axis_signal(int(head.removeprefix("axis")) - 1, *row)
-    raise KeyError(name)
 
 
 def _set_wire(controller: Controller, name: str, closed: bool) -> None:

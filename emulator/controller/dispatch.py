@@ -55,10 +55,25 @@ def handled_names() -> frozenset[str]:
 def is_implemented(command: Command) -> bool:
     """Whether this unit can carry the command out."""
     row = command.row
-    return row is None or command.name in _handlers or (row.kind == "setting" and row.reply in SETTING_REPLIES)
+    if row is None or command.name in _handlers:
+        return True
+    return row.kind == "setting" and row.reply in SETTING_REPLIES and row.name not in NEEDS_ITS_OWN_HANDLER
 
 
 SETTING_REPLIES = frozenset({"numbers", "mask", "word", "name"})
+
+SWITCHES_WITHOUT_FUNCTION = frozenset(
+    {
+        *("ERRORP", "ONP", "ONCOND", "INSELP", "INDUSE", "OUTFEN", "TRACE", "STEP", "TRANS"),
+        *("JOG", "JOY", "ANVOEN", "MEMORY", "TIMINT"),
+        *("FOLMAS", "FOLEN", "RE", "REGSS"),
+    }
+)
+"""Settings that switch on what this unit does not do yet: their defaults are accepted, anything else is refused rather
+than silently without effect."""
+
+NEEDS_ITS_OWN_HANDLER = frozenset({"TRGFN"})
+"""Settings whose fields are not the plain ones their row's reply suggests."""
 
 
 def carry_out(controller: Controller, command: Command) -> Lines:
@@ -77,7 +92,7 @@ def carry_out(controller: Controller, command: Command) -> Lines:
     handler = _handlers.get(row.name)
     if handler is not None:
         return handler(controller, command)
-    if row.kind == "setting" and row.reply in SETTING_REPLIES:
+    if is_implemented(command):
         return _setting(controller, command)
     raise CommandError(COMMAND_NOT_IMPLEMENTED)
 
@@ -85,6 +100,8 @@ def carry_out(controller: Controller, command: Command) -> Lines:
 def _setting(controller: Controller, command: Command) -> Lines:
     if command.is_query:
         return controller.settings.report(command)
+    if command.name in SWITCHES_WITHOUT_FUNCTION and not controller.settings.leaves_default(command):
+        raise CommandError(COMMAND_NOT_IMPLEMENTED)
     store_setting(controller, command)
     return None
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from emulator.controller.dispatch import Lines, applies, handles
 from protocol.command import Command
 from protocol.reply import ReplyLine, bits_word
-from protocol.status import ErrorStatus
+from protocol.status import AxisStatus, ErrorStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -20,6 +20,16 @@ CLEARED_BY_GO = (
     ErrorStatus.STOP_OR_KILL_ISSUED.mask | ErrorStatus.PRESET_MOVE_OVERSHOT.mask | ErrorStatus.GOWHEN_ALREADY_TRUE.mask
 )
 """ER bits the next GO clears (assumed H/M)."""
+
+CAUSES = {
+    ErrorStatus.HARD_LIMIT_HIT: AxisStatus.POSITIVE_HARD_LIMIT_HIT.mask | AxisStatus.NEGATIVE_HARD_LIMIT_HIT.mask,
+    ErrorStatus.SOFT_LIMIT_HIT: AxisStatus.POSITIVE_SOFT_LIMIT_HIT.mask | AxisStatus.NEGATIVE_SOFT_LIMIT_HIT.mask,
+    ErrorStatus.DRIVE_FAULT: AxisStatus.DRIVE_FAULTED.mask,
+    ErrorStatus.TARGET_ZONE_TIMEOUT: AxisStatus.TARGET_ZONE_TIMEOUT.mask,
+    ErrorStatus.POSITION_ERROR_EXCEEDED: AxisStatus.POSITION_ERROR_EXCEEDED.mask,
+}
+"""The AS bits behind an ER bit: ER is one word for the unit and keeps a bit while any axis has its cause
+(inferred)."""
 
 
 class Faults:
@@ -46,6 +56,16 @@ class Faults:
         """ERROR: which conditions are watched; bits switched off are cleared."""
         self.enabled = mask
         self.word &= mask
+
+
+def clear_without_cause(controller: Controller, *bits: ErrorStatus) -> None:
+    """Clear those ER bits whose cause no axis shows any longer."""
+    shown = 0
+    for axis_index in range(controller.settings.axes):
+        shown |= controller.engine.status(axis_index)
+    for bit in bits:
+        if not shown & CAUSES[bit]:
+            controller.faults.clear(bit.mask)
 
 
 @applies("ERROR")

@@ -43,6 +43,10 @@ MAX_BUFFERED_CHARACTERS = 65_536
 own buffer of 2000 bytes belongs to the timed serial line)."""
 
 
+ENTRY_CHARACTERS = 8
+"""What a waiting command counts beyond its text, so that a flood of empty lines is held back too (ours)."""
+
+
 @dataclass(slots=True)
 class Entry:
     """A command on its way through the unit: what was typed, what it was read as, and who hears the answer."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import applies
+from emulator.controller.faults import clear_without_cause
 from protocol.command import Command
 from protocol.status import AxisStatus, ErrorStatus
 
@@ -86,7 +87,7 @@ def apply_hard_limits(controller: Controller, command: Command, changed: list[in
         )
         if enable == 0:
             controller.engine.clear_status(axis_index, _HARD[1].axis_bit.mask | _HARD[-1].axis_bit.mask)
-            controller.faults.clear(ErrorStatus.HARD_LIMIT_HIT.mask)
+            clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT)
 
 
 @applies("LS", "LSPOS", "LSNEG")
@@ -98,4 +99,4 @@ def apply_soft_limits(controller: Controller, command: Command, changed: list[in
         controller.engine.set_soft_limits(axis_index, enable=enable, positive=positive, negative=negative)
         if enable == 0:
             controller.engine.clear_status(axis_index, _SOFT[1].axis_bit.mask | _SOFT[-1].axis_bit.mask)
-            controller.faults.clear(ErrorStatus.SOFT_LIMIT_HIT.mask)
+            clear_without_cause(controller, ErrorStatus.SOFT_LIMIT_HIT)

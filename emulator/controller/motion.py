@@ -6,7 +6,7 @@ from decimal import ROUND_DOWN, Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles, require_rest
-from emulator.controller.faults import CLEARED_BY_GO
+from emulator.controller.faults import CLEARED_BY_GO, clear_without_cause
 from emulator.controller.limits import limit_in_the_way
 from emulator.controller.waits import MotionWait
 from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
@@ -114,10 +114,11 @@ def start(controller: Controller, axis_index: int) -> None:
         engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
         return
-    if engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask:
-        controller.faults.clear(ErrorStatus.TARGET_ZONE_TIMEOUT.mask)
+    in_zone = engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
     engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
-    controller.faults.clear(ErrorStatus.HARD_LIMIT_HIT.mask | ErrorStatus.SOFT_LIMIT_HIT.mask)
+    clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
+    if in_zone:
+        clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
     if controller.settings.flag("MC", axis_index):
         engine.start_profile(axis_index, _continuous(controller, axis_index, direction))
     else:

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 from emulator.controller import words
 from emulator.controller.readings import READINGS, SETTING_OPERANDS, reading_in_user_units
 from emulator.engine import Signal
+from protocol.catalogue import operands
 from protocol.condition import Condition, Operand, Relation, Value, evaluate, relations
-from protocol.errors import COMMAND_NOT_IMPLEMENTED, INCORRECT_AXIS, INVALID_DATA, CommandError
+from protocol.errors import COMMAND_NOT_IMPLEMENTED, INCORRECT_AXIS, INCORRECT_DATA, INVALID_DATA, CommandError
 from protocol.status import AxisStatus
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ class Operands:
             return reading_in_user_units(self._controller, name, axis_index)
         if name in SETTING_OPERANDS:
             return self._controller.settings.value_in_user_units(name, axis_index)
-        raise CommandError(COMMAND_NOT_IMPLEMENTED)
+        raise CommandError(COMMAND_NOT_IMPLEMENTED if name in operands() else INCORRECT_DATA)
 
     def _axis_index(self, operand: Operand) -> int:
         axis = operand.axis or UNPREFIXED_AXIS

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles, store_setting
+from emulator.controller.faults import clear_without_cause
 from emulator.engine import Gains
 from protocol.command import Command
 from protocol.errors import ENABLE_INPUT_INACTIVE, MOTION_IN_PROGRESS, CommandError
@@ -42,7 +43,7 @@ def turn_on(controller: Controller, axis_index: int) -> None:
     controller.note_drive(axis_index, on=True)
     controller.drive_faulted[axis_index] = False
     controller.refresh_axis_bits(axis_index)
-    controller.faults.clear(ErrorStatus.POSITION_ERROR_EXCEEDED.mask | ErrorStatus.DRIVE_FAULT.mask)
+    clear_without_cause(controller, ErrorStatus.POSITION_ERROR_EXCEEDED, ErrorStatus.DRIVE_FAULT)
     if controller.wiring.enable_grounded:
         controller.faults.clear(ErrorStatus.ENABLE_INPUT_OPEN.mask)
     controller.check_drive_faults()
@@ -95,7 +96,7 @@ def apply_target_zone(controller: Controller, command: Command, changed: list[in
         )
         if not enable:
             controller.engine.clear_status(axis_index, AxisStatus.TARGET_ZONE_TIMEOUT.mask)
-            controller.faults.clear(ErrorStatus.TARGET_ZONE_TIMEOUT.mask)
+            clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
 
 
 @applies("SFB")

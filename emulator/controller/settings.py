@@ -183,6 +183,20 @@ class Settings:
         self.axes_in_use = int(self._numbers["INDAX"][0].value)
         self.scaled = self._bits["SCALE"][0] == "1"
 
+    def leaves_default(self, command: Command) -> bool:
+        """Whether a setting command gives nothing but power-up values.
+
+        Raises:
+            CommandError: the values are refused anyway.
+        """
+        row = _row_of(command)
+        if row.reply == "name":
+            return command.argument == "CLR"
+        if row.reply == "numbers":
+            given = (value for value in command.values if value is not None)
+            return all(value == default for value, default in zip(given, default_values(row), strict=False))
+        return not set(command.mask or command.bit_value) - {"0", "X"}
+
     def report(self, command: Command) -> list[ReplyLine]:
         """The answer to a setting command without fields."""
         row = _row_of(command)
