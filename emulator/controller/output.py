@@ -17,21 +17,27 @@ class Transmitter:
     """Collects output until it is taken; neighbours for the same channel at the same time become one."""
 
     def __init__(self) -> None:
-        self._waiting: list[Output] = []
+        self._finished: list[Output] = []
+        self._at_ns = 0
+        self._channel: int | None = None
+        self._pieces: list[bytes] = []
 
     def send(self, at_ns: int, data: bytes, channel: int | None) -> None:
         """Add output; empty data (a prompt that ERRLVL suppresses) adds nothing."""
         if not data:
             return
-        waiting = self._waiting
-        if waiting:
-            last = waiting[-1]
-            if last.channel == channel and last.at_ns == at_ns:
-                waiting[-1] = Output(at_ns, last.data + data, channel)
-                return
-        waiting.append(Output(at_ns, data, channel))
+        if channel != self._channel or at_ns != self._at_ns:
+            self._finish()
+            self._at_ns, self._channel = at_ns, channel
+        self._pieces.append(data)
+
+    def _finish(self) -> None:
+        if self._pieces:
+            self._finished.append(Output(self._at_ns, b"".join(self._pieces), self._channel))
+            self._pieces.clear()
 
     def take(self) -> list[Output]:
         """Everything sent since last asked, in order."""
-        taken, self._waiting = self._waiting, []
+        self._finish()
+        taken, self._finished = self._finished, []
         return taken

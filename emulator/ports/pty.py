@@ -23,6 +23,7 @@ import contextlib
 import fcntl
 import os
 import termios
+import warnings
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -168,7 +169,11 @@ class PtyPort:
 def _make(link: str, node: str) -> Path:
     if link != "auto":
         return make_link(Path(link), node)
-    return make_auto_link(Path(platformdirs.user_runtime_dir("oem6250")), node)
+    with warnings.catch_warnings():
+        # Where there is no XDG_RUNTIME_DIR the library falls back to a directory of its own, which serves.
+        warnings.simplefilter("ignore")
+        directory = Path(platformdirs.user_runtime_dir("oem6250"))
+    return make_auto_link(directory, node)
 
 
 def _set_raw(fd: int) -> None:
