@@ -137,6 +137,6 @@ class Session:
 
 def both_on(*commands: str, **defaults: str | int) -> Session:
     """A unit with both drives on and some commands carried out."""
-    session = Session(**defaults)
+    session = Session("", **defaults)
     session.ok("DRIVE11", *commands)
     return session

@@ -72,6 +72,7 @@ class TestDwell:
         stamps = session.timed(f"T{seconds}:1TPC", wait_s=3)
         assert "".join(stamp.text for stamp in stamps) == f"{OK}*1TPC+0\r{OK}"
         assert within_an_update(stamps[0], float(seconds))
+        assert stamps[0].at_ns % SYSTEM_NS == 0, "commands go on at system updates"
 
     def test_shows_in_the_system_status(self) -> None:
         session = Session()

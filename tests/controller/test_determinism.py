@@ -79,6 +79,11 @@ def in_one_go(start_ns: int, end_ns: int) -> Iterator[int]:
     yield end_ns
 
 
+def never(start_ns: int, end_ns: int) -> Iterator[int]:
+    """Time passes only because bytes arrive."""
+    yield from ()
+
+
 def every_second(start_ns: int, end_ns: int) -> Iterator[int]:
     yield from range(start_ns - start_ns % S + S, end_ns, S)
     yield end_ns
@@ -161,6 +166,7 @@ def test_twice_the_same(five_minutes: list[tuple[int, int, int | None]]) -> None
         (every_second, byte_by_byte),
         (at_random(1), split_at_random(1)),
         (at_random(2), byte_by_byte),
+        (never, whole),
     ],
 )
 def test_cut_otherwise(slices: Slicer, split: Splitter, five_minutes: list[tuple[int, int, int | None]]) -> None:
