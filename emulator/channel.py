@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 TURN_BYTES = 256
 """What one channel may have executed before the next gets its turn: about fifty commands (design choice)."""
@@ -18,16 +18,8 @@ TURN_BYTES = 256
 Item = bytes | Callable[[], None]
 
 
-class Output(NamedTuple):
-    """Bytes a controller sends: when they leave the unit, and to which channel (None: to every channel)."""
-
-    at_ns: int
-    data: bytes
-    channel: int | None
-
-
 class OutputLike(Protocol):
-    """The same, as seen from here: whatever named tuple the controller uses."""
+    """Bytes a controller sends: when they leave the unit, and to which channel (None: to every channel)."""
 
     @property
     def at_ns(self) -> int: ...

@@ -19,13 +19,21 @@ import re
 import sys
 from collections import defaultdict
 from collections.abc import Sequence
+from typing import NamedTuple
 
-from emulator.channel import Output
 from emulator.cli import main
 from emulator.options import ServeOptions
 
 MAX_LINE = 100
 TERMINATOR = re.compile(rb"[\r\n]")
+
+
+class Output(NamedTuple):
+    """What the engine thread takes from a controller."""
+
+    at_ns: int
+    data: bytes
+    channel: int | None
 
 
 class Boom(Exception):
