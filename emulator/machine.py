@@ -10,6 +10,7 @@ docs/fidelity.md, the guide with examples docs/machine-file.md.
 
 from __future__ import annotations
 
+import math
 import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
@@ -33,6 +34,7 @@ from emulator.machine_tables import (
     Serial,
     Servo,
     Table,
+    Timing,
     TorqueDrive,
     VelocityDrive,
     Wires,
@@ -94,6 +96,7 @@ class Machine(Table, frozen=True):
     ] = False
     limits: Annotated[Limits, known("field ranges", "assumed", "M")] = Limits()
     memory: Annotated[Memory, known("user memory", "documented", source="UG 74, 83")] = Memory()
+    timing: Annotated[Timing, known("how fast programs run", "assumed", "L")] = Timing()
     servo: Annotated[Servo, known("the servo processor", "assumed", "L")] = Servo()
     encoder: Annotated[EncoderInput, known("the encoder inputs", "assumed", "L")] = EncoderInput()
     axis1: Annotated[Axis, known("what is connected to axis 1", "design")] = Axis()
@@ -179,6 +182,7 @@ def _conflicts(machine: Machine) -> list[tuple[str, str, str]]:
         *_wire_conflicts(machine),
         *_rate_conflicts(machine),
         *_range_conflicts(machine),
+        *_travel_conflicts(machine),
     ]
 
 
@@ -204,6 +208,20 @@ def _range_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
     if accel.minimum < accel.maximum:
         return []
     return [("limits.accel.maximum", f"{accel.maximum:g}", f"a number above minimum, {accel.minimum:g}")]
+
+
+def _travel_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
+    conflicts = []
+    for number, axis in enumerate(machine.axes, start=1):
+        key, travel = f"axis{number}.travel", axis.travel
+        if not travel.negative_limit_rev < travel.positive_limit_rev:
+            found = f"{travel.positive_limit_rev:g}"
+            conflicts.append((f"{key}.positive_limit_rev", found, f"above {travel.negative_limit_rev:g}"))
+        no_home = travel.home_from_rev == math.inf and travel.home_to_rev == -math.inf
+        if not no_home and not travel.home_from_rev < travel.home_to_rev:
+            found = f"{travel.home_to_rev:g}"
+            conflicts.append((f"{key}.home_to_rev", found, f"above home_from_rev, {travel.home_from_rev:g}"))
+    return conflicts
 
 
 def _rate_conflicts(machine: Machine) -> list[tuple[str, str, str]]:

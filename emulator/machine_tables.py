@@ -12,6 +12,7 @@ APEX615n Installation Guide, GemCR = Gemini Command Reference, KB = Parker knowl
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any, Literal
 
 import msgspec
@@ -189,7 +190,7 @@ class Limits(Table, frozen=True):
 class Memory(Table, frozen=True):
     """User memory and its counts."""
 
-    total_bytes: Annotated[int, known("user memory, bytes", "documented", source="UG 83", ge=2000, acts=False)] = 40_000
+    total_bytes: Annotated[int, known("user memory, bytes", "documented", source="UG 83", ge=2000)] = 40_000
     program_bytes: Annotated[
         int, known("program part at start, bytes", "documented", source="UG 83", ge=1000, multiple_of=2)
     ] = 21_400
@@ -211,15 +212,21 @@ class Memory(Table, frozen=True):
     ] = 1000
     segment_bytes: Annotated[int, known("compiled memory per segment, bytes", "assumed", "L", ge=1)] = 76
     programs: Annotated[int, known("programs", "documented", source="UG 83", ge=1)] = 100
-    var: Annotated[int, known("numeric variables", "documented", source="UG 74", ge=1, acts=False)] = 150
-    varb: Annotated[int, known("binary variables", "documented", source="UG 74", ge=1, acts=False)] = 25
-    vars: Annotated[int, known("string variables", "documented", source="UG 74", ge=1, acts=False)] = 25
-    string_characters: Annotated[
-        int, known("longest string, characters", "documented", source="UG 74", ge=1, acts=False)
-    ] = 20
-    labels: Annotated[int, known("labels", "assumed", "M", ge=1, acts=False)] = 250
+    var: Annotated[int, known("numeric variables", "documented", source="UG 74", ge=1)] = 150
+    varb: Annotated[int, known("binary variables", "documented", source="UG 74", ge=1)] = 25
+    vars: Annotated[int, known("string variables", "documented", source="UG 74", ge=1)] = 25
+    string_characters: Annotated[int, known("longest string, characters", "documented", source="UG 74", ge=1)] = 20
+    labels: Annotated[int, known("labels", "assumed", "M", ge=1)] = 250
     compiled: Annotated[int, known("compiled programs", "assumed", "M", ge=1, acts=False)] = 100
     nest_levels: Annotated[int, known("nesting of IF, loops and GOSUB", "assumed", "H", ge=1)] = 16
+
+
+class Timing(Table, frozen=True):
+    """How fast the unit carries out programs."""
+
+    commands_per_update: Annotated[
+        int, known("commands a program carries out in one system update", "assumed", "L", ge=1)
+    ] = 8
 
 
 class UnitFactors(Table, frozen=True):
@@ -311,6 +318,27 @@ class Encoder(Table, frozen=True):
         4000
     )
     phase: Annotated[float, known("where in a count the shaft stands at start, counts", "design", ge=0, lt=1)] = 0.0
+    index_phase: Annotated[float, known("where in a revolution the Z pulse lies, rev", "design", ge=0, lt=1)] = 0.5
+
+
+class Travel(Table, frozen=True):
+    """Where the switches of one axis sit, revolutions of the shaft from where it stands at start.
+
+    An operated switch changes its contact over from the state `wires` gives it.
+    """
+
+    positive_limit_rev: Annotated[
+        float, known("positive limit switch, operated from here on, rev; inf = none", "design")
+    ] = math.inf
+    negative_limit_rev: Annotated[
+        float, known("negative limit switch, operated up to here, rev; -inf = none", "design")
+    ] = -math.inf
+    home_from_rev: Annotated[float, known("negative-side edge of the home switch, rev; inf = none", "design")] = (
+        math.inf
+    )
+    home_to_rev: Annotated[
+        float, known("positive-side edge of the home switch, rev; -inf = none", "design")
+    ] = -math.inf
 
 
 class AxisWires(Table, frozen=True):
@@ -328,6 +356,7 @@ class Axis(Table, frozen=True):
     plant: Annotated[VelocityDrive | TorqueDrive, known("drive, motor and load", "design")] = VelocityDrive()
     encoder: Annotated[Encoder, known("the encoder", "design")] = Encoder()
     wires: Annotated[AxisWires, known("its contacts", "design")] = AxisWires()
+    travel: Annotated[Travel, known("its switches along the travel", "design")] = Travel()
 
 
 Volts = Annotated[float, msgspec.Meta(ge=0.0, le=2.5)]

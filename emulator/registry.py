@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 from emulator.controller import Controller
 from emulator.controller import words as status
+from emulator.controller.panel_commands import press, release
+from emulator.controller.thumbwheel_bank import dial
 
 Value = float | int | bool | str
 
@@ -96,7 +98,13 @@ UNIT_SIGNALS: tuple[Signal, ...] = (
     Signal("status.error", "ER, bit 1 first", "", status.error_status),
     Signal("limits", "LIM, electrical", "", status.limit_inputs),
     Signal("inputs", "IN, after levels and overrides", "", status.inputs),
-    Signal("outputs", "OUT, after overrides", "", status.outputs),
+    Signal("outputs", "OUT, after functions and overrides", "", status.outputs),
+    Signal(
+        "outputs.sinking", "outputs that sink current, after OUTLVL", "", lambda c: c.output_functions.sinking_bits()
+    ),
+    Signal("status.user", "US, bit 1 first", "", status.user_status),
+    Signal("panel.display", "the operator panel's two lines of 40 characters", "", lambda c: "\n".join(c.panel.text)),
+    Signal("panel.leds", "the operator panel's lamps, first lamp first", "", lambda c: c.panel.leds),
 )
 
 
@@ -110,6 +118,18 @@ def _wire_signal(wire: str) -> Signal:
     return Signal(f"wire.{wire}", f"contact {wire} is closed (grounded)", "", lambda c: c.wiring.closed(wire))
 
 
+def _output_signal(number: int) -> Signal:
+    return Signal(
+        f"output.{number}", f"output {number} is on", "", lambda c: c.output_functions.bits()[number - 1] == "1"
+    )
+
+
+def _analog_signal(channel: int) -> Signal:
+    return Signal(
+        f"analog.{channel}", f"voltage at joystick channel {channel}", "V", lambda c: c.wiring.analog_volts[channel - 1]
+    )
+
+
 def describe_signals(controller: Controller) -> dict[str, Signal]:
     """Every signal a unit has, by name."""
     signals = {signal.name: signal for signal in UNIT_SIGNALS}
@@ -119,11 +139,19 @@ def describe_signals(controller: Controller) -> dict[str, Signal]:
             signals[signal.name] = signal
     for wire in controller.wiring.names:
         signals[f"wire.{wire}"] = _wire_signal(wire)
+    outputs = [_output_signal(number) for number in range(1, controller.output_functions.count + 1)]
+    analog = [_analog_signal(channel) for channel in range(1, len(controller.wiring.analog_volts) + 1)]
+    for signal in (*outputs, *analog):
+        signals[signal.name] = signal
     return signals
 
 
 def _set_wire(controller: Controller, name: str, closed: bool) -> None:
     controller.wiring.set(name, closed=closed)
+
+
+def _set_analog(controller: Controller, channel: int, volts: float) -> None:
+    controller.wiring.set_analog(channel, volts=volts)
 
 
 def _cut_power(controller: Controller) -> None:
@@ -147,6 +175,28 @@ ACTIONS: Mapping[str, Action] = {
             "close (ground) or open a contact at the unit's terminals",
             (Parameter("name", str, "the contact"), Parameter("closed", bool, "true grounds it")),
             _set_wire,
+        ),
+        Action(
+            "set_analog",
+            "set the voltage of a joystick channel",
+            (
+                Parameter("channel", int, "1 to 3"),
+                Parameter("volts", float, "0 to 2.5", unit="V"),
+            ),
+            _set_analog,
+        ),
+        Action("press_key", "press a key of the operator panel", (Parameter("key", str, "its label"),), press),
+        Action(
+            "release_key",
+            "let go of an arrow key of the operator panel",
+            (Parameter("key", str, "its label"),),
+            release,
+        ),
+        Action(
+            "dial_thumbwheels",
+            "dial a number on the thumbwheels wired as INSTW and OUTTW say",
+            (Parameter("set_number", int, "1 to 4"), Parameter("value", int, "sign and up to eight digits")),
+            dial,
         ),
         Action("cut_power", "switch the unit off; its motors coast", (), _cut_power),
         Action("restore_power", "switch the unit on; it signs on", (), _restore_power),

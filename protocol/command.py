@@ -49,8 +49,8 @@ class Command:
 
     ``text`` is the normalised form without unit address and ``!`` (what a program stores, TRACE shows, TCMDER reports);
     ``argument`` the field text; ``values`` the comma fields of numeric commands; ``mask`` the digits of packed binary
-    fields; ``bit`` and ``bit_value`` the parts of ``.n`` and ``.n-v``; ``spelled``
-    the name as written, which differs from ``name`` for an alias.
+    fields; ``substituted`` says that a variable stands for one of these; ``bit`` and ``bit_value`` the parts of ``.n``
+    and ``.n-v``; ``spelled`` the name as written, which differs from ``name`` for an alias.
     """
 
     text: str
@@ -67,6 +67,7 @@ class Command:
     bit: int | None = None
     bit_value: str = ""
     spelled: str = ""
+    substituted: bool = False
 
     @property
     def is_query(self) -> bool:
@@ -90,8 +91,8 @@ _ANYTHING = r".*"
 _SYNTAX_BY_NAME = {
     "D": _DISTANCES,
     "VAR": rf"{_INDEX}(?:=.*)?",
-    "VARB": r"\d+(?:=.*|\.\d+(?:-[01X])?)?",
-    "VARS": r"\d+(?:=.*)?",
+    "VARB": rf"{_INDEX}(?:=.*|\.{_COUNT}(?:-[01X])?)?",
+    "VARS": rf"{_INDEX}(?:=.*)?",
     "INFNC": r"(?:\d+(?:-\d?[A-Z][A-Z0-9]*)?)?",
     "OUTFNC": r"(?:\d+(?:-\d?[A-Z])?)?",
     "INDUST": r"(?:\d+(?:-\d+[A-Z])?)?",
@@ -259,6 +260,7 @@ def _build(
         bit=bit,
         bit_value=bit_value,
         spelled=spelled,
+        substituted=variable is not None or any(isinstance(value, VariableReference) for value in values),
     )
 
 

@@ -76,3 +76,12 @@ def parse_number(text: str) -> Decimal:
     if _NUMBER.fullmatch(text) is None:
         raise ReplyError(f"not a number: {text!r}")
     return Decimal(text)
+
+
+def format_columns(value: Decimal, *, whole_digits: int, decimals: int, signed: bool) -> str:
+    """WRVAR and DVAR: exactly so many digits before and after the point, ``+012.50`` (leading zeros, and digits that
+    do not fit cut off at the left: assumed L)."""
+    whole, _, fraction = format_fixed(abs(value), decimals).partition(".")
+    digits = whole.rjust(whole_digits, "0")[-whole_digits:] if whole_digits else ""
+    sign = ("-" if value < 0 else "+") if signed else ""
+    return f"{sign}{digits}{'.' if decimals else ''}{fraction}"

@@ -10,6 +10,7 @@ from emulator.engine import (
     Engine,
     ServoRates,
     TorqueDrive,
+    Travel,
     UnitFactors,
     VelocityDrive,
 )
@@ -23,7 +24,7 @@ def build_settings(machine: Machine) -> Settings:
     """The settings store with the machine's power-up defaults and ranges."""
     accel = machine.limits.accel
     return Settings(
-        machine.defaults,
+        {"MEMORY": f"{machine.memory.program_bytes},{machine.memory.compiled_bytes}", **machine.defaults},
         acceleration_range=(Decimal(str(accel.minimum)), Decimal(str(accel.maximum))),
         ani_fitted=machine.options.ani,
         lenient_masks=machine.lenient_masks,
@@ -62,8 +63,18 @@ def rates_in_force(machine: Machine, settings: Settings) -> ServoRates:
 
 def axis_hardware(axis: Axis) -> AxisHardware:
     """What an axis is connected to, in the engine's terms."""
+    switches = axis.travel
     return AxisHardware(
-        plant=plant(axis.plant), counts_per_rev=axis.encoder.counts_per_rev, encoder_phase=axis.encoder.phase
+        plant=plant(axis.plant),
+        counts_per_rev=axis.encoder.counts_per_rev,
+        encoder_phase=axis.encoder.phase,
+        index_phase_rev=axis.encoder.index_phase,
+        travel=Travel(
+            positive_limit_rev=switches.positive_limit_rev,
+            negative_limit_rev=switches.negative_limit_rev,
+            home_from_rev=switches.home_from_rev,
+            home_to_rev=switches.home_to_rev,
+        ),
     )
 
 

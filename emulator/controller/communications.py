@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import applies
+from emulator.controller.scaling import Quantity
 from protocol.command import Command
 from protocol.reply import Framing, LevelRules, character_codes
 
@@ -63,3 +65,17 @@ def apply_echo(controller: Controller, command: Command, changed: list[int]) -> 
 def answers_to(controller: Controller, address: int | None) -> bool:
     """Whether a command with this unit address (None: without one) is for this unit."""
     return address is None or address in (EVERY_UNIT, controller.settings.integer("ADDR"))
+
+
+@applies("ADDR")
+def apply_address(controller: Controller, command: Command, changed: list[int]) -> None:
+    """ADDR0 returns to the address set by the switches (6000 PG p.72): the one the machine file starts with."""
+    if controller.settings.integer("ADDR") == 0:
+        switches = Quantity(Decimal(controller.machine.defaults.get("ADDR", "0")), 1)
+        controller.settings.store("ADDR", 0, switches)
+
+
+def is_neighbours_reply(text: str) -> bool:
+    """Whether a line that reaches a chained unit is what another unit said: passed on by the echo, but no command, and
+    no bad command either (assumed L: else every reply would set ER bit 16 in all units behind)."""
+    return text.startswith("*")

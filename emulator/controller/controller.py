@@ -7,23 +7,45 @@ same bytes leave at the same times.
 
 from __future__ import annotations
 
-from emulator.controller import dispatch
+from dataclasses import replace
+
+from emulator.controller import dispatch, words
+from emulator.controller.alarms import Alarms
+from emulator.controller.analog import Analog
 from emulator.controller.build import build_engine, build_settings, rates_in_force
-from emulator.controller.communications import answers_to, framing_in_force
+from emulator.controller.communications import answers_to, framing_in_force, is_neighbours_reply
+from emulator.controller.data_programs import DataPrograms
+from emulator.controller.debugging import Debugging
 from emulator.controller.dispatch import handles
 from emulator.controller.faults import Faults
 from emulator.controller.gain_sets import AxisGains
+from emulator.controller.homing import Homing
+from emulator.controller.input_functions import InputFunctions
+from emulator.controller.inputs import Inputs
 from emulator.controller.interpreter import Interpreter
+from emulator.controller.jogging import Jogging
+from emulator.controller.joystick import Joystick
+from emulator.controller.on_conditions import OnConditions
 from emulator.controller.operands import Operands
 from emulator.controller.output import Output, Transmitter
+from emulator.controller.output_functions import OutputFunctions
+from emulator.controller.output_on_position import OutputOnPosition
+from emulator.controller.panel import OperatorPanel
+from emulator.controller.panel_commands import DEFAULT_PASSWORD
+from emulator.controller.pausing import Pausing
+from emulator.controller.program_select import ProgramSelect, security_locked
 from emulator.controller.programs import Programs
 from emulator.controller.stopping import end_of_travel, stop_axes
+from emulator.controller.thumbwheels import Thumbwheels
+from emulator.controller.timers import Timer
+from emulator.controller.user_status import UserStatus
+from emulator.controller.variables import Variables
 from emulator.controller.wiring import Wiring
 from emulator.engine import Event
 from emulator.engine.machine_code import OnBuild
 from emulator.machine import Machine
 from protocol.command import Command, VariableReference, parse_command
-from protocol.errors import COMMAND_NOT_IMPLEMENTED, CommandError
+from protocol.errors import CommandError
 from protocol.line import LineAssembler, Token, TokenKind
 from protocol.reply import Framing
 from protocol.status import AxisStatus, ErrorStatus
@@ -43,20 +65,47 @@ class Controller:
         self.settings = build_settings(machine)
         self.engine = build_engine(machine, self.settings, on_build)
         self.wiring = Wiring(self.engine, machine)
+        self.alarms = Alarms()
+        self.inputs = Inputs(self)
+        self.input_functions = InputFunctions(self)
+        self.output_functions = OutputFunctions(self)
+        self.on_position = [OutputOnPosition(self, axis_index) for axis_index in range(self.settings.axes)]
+        self.program_select = ProgramSelect(self)
+        self.thumbwheels = Thumbwheels(self)
+        self.analog = Analog(self)
+        self.user_status = UserStatus(self)
+        self.pausing = Pausing(self)
+        self.panel = OperatorPanel(fitted=machine.rp240.fitted)
+        self.panel_password = DEFAULT_PASSWORD
         self.faults = Faults()
         self.programs = Programs(
             capacity_bytes=machine.memory.program_bytes,
             max_programs=machine.memory.programs,
             max_nesting=machine.memory.nest_levels,
+            max_labels=machine.memory.labels,
         )
+        self.debugging = Debugging()
+        self.on_conditions = OnConditions()
+        self.variables = Variables(
+            numbers=machine.memory.var,
+            patterns=machine.memory.varb,
+            texts=machine.memory.vars,
+            text_length=machine.memory.string_characters,
+        )
+        self.data_programs = DataPrograms(self)
+        self.timer = Timer()
         self.operands = Operands(self)
         self.interpreter = Interpreter(self)
         self.framing: Framing = framing_in_force(self)
         self.echo = True
         self.listening = True
+        self.chained = False
         self.powered = False
         self.drive_faulted = [False] * self.settings.axes
         self.gain_sets: dict[int, list[AxisGains]] = {}
+        self.homing = Homing(self)
+        self.jogging = Jogging(self)
+        self.joystick = Joystick(self)
         self._enable_lost = False
         self._lines: dict[int, LineAssembler] = {}
         self._transmitter = Transmitter()
@@ -71,8 +120,9 @@ class Controller:
 
     @property
     def busy(self) -> bool:
-        """Motion, dwell, wait or program under way: the next output or effect may come by itself."""
-        return self.interpreter.busy or any(self.engine.is_moving(i) for i in range(self.settings.axes))
+        """Motion, dwell, wait, program or debounce under way: the next output or effect may come by itself."""
+        moving = any(self.engine.is_moving(axis_index) for axis_index in range(self.settings.axes))
+        return moving or self.interpreter.busy or self.alarms.pending
 
     def input_full(self, channel: int) -> bool:
         """So many commands of this connection wait that more of its input should stay on the wire."""
@@ -87,6 +137,8 @@ class Controller:
     def power_down(self) -> None:
         """Switch off: nothing is answered, drives are off, the motors coast."""
         self._stop_everything()
+        self.alarms.clear()
+        self.program_select.leave()
         self.powered = False
         self._lines.clear()
 
@@ -104,15 +156,19 @@ class Controller:
 
     def advance(self, until_ns: int) -> None:
         """Run to a virtual time, carrying out what becomes due on the way."""
-        engine, interpreter = self.engine, self.interpreter
+        engine, interpreter, alarms = self.engine, self.interpreter, self.alarms
         while engine.time_ns < until_ns:
-            look_again_ns = interpreter.look_again_ns
+            look_again_ns = min(interpreter.look_again_ns, alarms.next_ns)
             events = engine.run(min(until_ns, look_again_ns))
+            if engine.time_ns >= alarms.next_ns:
+                alarms.carry_out(engine.time_ns)
             if events:
                 self._act_on(events)
                 interpreter.run()
             elif engine.time_ns >= look_again_ns:
                 interpreter.run()
+            if self.program_select.looking:
+                self.program_select.look()
 
     def take_output(self) -> list[Output]:
         """What has left the unit since last asked."""
@@ -133,15 +189,29 @@ class Controller:
         return answers_to(self, address)
 
     def substitute(self, command: Command) -> Command:
-        """The command with every ``(VARn)`` replaced by its value.
+        """The command with every ``(VARn)`` and ``(VARBn)`` replaced by its value.
+
+        A VARB has more bits than most masks; those the command has no use for are cut off (assumed).
 
         Raises:
-            CommandError: the unit has no variables yet.
+            CommandError: INVALID DATA for a variable the unit does not have.
         """
-        referenced = command.variable is not None or any(isinstance(v, VariableReference) for v in command.values)
-        if referenced:
-            raise CommandError(COMMAND_NOT_IMPLEMENTED)
-        return command
+        if not command.substituted:
+            return command
+        if command.variable is not None:
+            bits = self.variables.bits(command.variable.number)
+            return replace(command, mask=bits[: self._mask_length(command)], variable=None, substituted=False)
+        values = tuple(
+            self.variables.number(value.number) if isinstance(value, VariableReference) else value
+            for value in command.values
+        )
+        return replace(command, values=values, substituted=False)
+
+    def _mask_length(self, command: Command) -> int:
+        assert command.row is not None
+        if not command.row.fields.per_axis:
+            return len(words.outputs(self)) if command.name == "OUT" else command.row.fields.count
+        return 1 if command.axis is not None or command.all_axes else self.settings.axes_in_use
 
     def setting_command(self, name: str) -> Command:
         """A setting as a bare command (what ``applies`` functions are called with at power-up)."""
@@ -150,6 +220,11 @@ class Controller:
     def query_text(self, name: str) -> str:
         """The value part of a setting's report."""
         return self.settings.report(parse_command(name))[0].value
+
+    @property
+    def security_locked(self) -> bool:
+        """Program security is in force: programs may be neither looked at nor changed."""
+        return security_locked(self)
 
     def system_update_at(self, at_ns: int) -> int:
         """The first system update at or after a time."""
@@ -162,6 +237,8 @@ class Controller:
 
     def shut_down(self, axis_index: int) -> None:
         """Assert the shutdown output of an axis: loop open, motion given up."""
+        self.homing.abort(axis_index)
+        self.joystick.leave(axis_index)
         self.engine.disable(axis_index)
         self.note_drive(axis_index, on=False)
 
@@ -174,6 +251,7 @@ class Controller:
     def refresh_axis_bits(self, axis_index: int) -> None:
         """Put the AS bits that belong to the controller into the axis's status word."""
         modes = {
+            AxisStatus.HOME_SUCCESSFUL: self.homing.successful[axis_index],
             AxisStatus.MODE_ABSOLUTE: self.settings.flag("MA", axis_index),
             AxisStatus.MODE_CONTINUOUS: self.settings.flag("MC", axis_index),
             AxisStatus.JOG_MODE: self.settings.flag("JOG", axis_index),
@@ -197,8 +275,10 @@ class Controller:
     # Characters.
 
     def _take(self, token: Token, channel: int) -> None:
-        if self.echo and self.listening:
+        if self.echo and (self.listening or self.chained):
             self._echo(token, channel)
+        if self.chained and is_neighbours_reply(token.text):
+            return
         kind = token.kind
         if kind is TokenKind.COMMAND:
             if self.listening or _switches_communication(token.text):
@@ -231,6 +311,9 @@ class Controller:
                 self._act_on_axis(axis_index, axis_events)
 
     def _act_on_axis(self, axis_index: int, events: Event) -> None:
+        events = self.homing.act_on(axis_index, events)
+        if events & Event.VALUE:
+            self.on_position[axis_index].check()
         if events & Event.HARD_LIMIT:
             end_of_travel(self, axis_index, "LHAD", ErrorStatus.HARD_LIMIT_HIT)
         if events & Event.SOFT_LIMIT:
@@ -247,6 +330,8 @@ class Controller:
         if self._enable_lost and not was_lost:
             self._lose_enable()
         self.check_drive_faults()
+        self.inputs.sample()
+        self.joystick.refresh()
 
     def _lose_enable(self) -> None:
         """ENABLE opened: every drive is shut down whatever KDRIVE says, programs end (assumed M)."""
@@ -280,8 +365,15 @@ class Controller:
     def _start(self) -> None:
         self.settings.reset(keep=NONVOLATILE_SETTINGS)
         self.faults = Faults()
+        self.on_conditions = OnConditions()
+        self.timer = Timer()
         self.drive_faulted = [False] * self.settings.axes
         self._enable_lost = not self.wiring.enable_grounded
+        self.data_programs.reset()
+        self.homing.reset()
+        self.jogging.reset()
+        self.joystick.reset()
+        self._reset_inputs_and_outputs()
         self.engine.power_up()
         dispatch.apply_all(self)
         for axis_index in range(self.settings.axes):
@@ -290,8 +382,21 @@ class Controller:
         if self.settings.integer("ADDR") == 0:
             self._sign_on()
         start_up = self.settings.program_name("STARTP")
-        if start_up and (self.wiring.enable_grounded or not self.machine.startp_needs_enable):
+        if self.programs.exists(start_up) and (self.wiring.enable_grounded or not self.machine.startp_needs_enable):
             self.interpreter.start_program(start_up)
+
+    def _reset_inputs_and_outputs(self) -> None:
+        self.alarms.clear()
+        self.inputs.power_up()
+        self.input_functions.power_up()
+        self.output_functions.power_up()
+        for on_position in self.on_position:
+            on_position.power_up()
+        self.thumbwheels.power_up()
+        self.analog.power_up()
+        self.user_status.power_up()
+        self.pausing.forget()
+        self.panel.power_up()
 
     def _enable_drives_by_default(self) -> None:
         """DRIVE1 as a power-up default of the machine file (a stepper host's unit comes up energised)."""

@@ -64,8 +64,7 @@ SETTING_REPLIES = frozenset({"numbers", "mask", "word", "name"})
 
 SWITCHES_WITHOUT_FUNCTION = frozenset(
     {
-        *("ERRORP", "ONP", "ONCOND", "INSELP", "INDUSE", "OUTFEN", "TRACE", "STEP", "TRANS"),
-        *("JOG", "JOY", "ANVOEN", "MEMORY", "TIMINT"),
+        "TRANS",
         *("FOLMAS", "FOLEN", "RE", "REGSS"),
     }
 )
@@ -89,6 +88,8 @@ def carry_out(controller: Controller, command: Command) -> Lines:
     if row.name == "TPM" and not controller.machine.answer_tpm:
         raise CommandError(COMMAND_NOT_IMPLEMENTED)
     check_axis(command, controller.settings.axes_in_use)
+    if command.substituted:
+        command = controller.substitute(command)
     handler = _handlers.get(row.name)
     if handler is not None:
         return handler(controller, command)

@@ -31,6 +31,17 @@ CAUSES = {
 """The AS bits behind an ER bit: ER is one word for the unit and keeps a bit while any axis has its cause
 (inferred)."""
 
+ALWAYS_GOTO = (
+    ErrorStatus.DRIVE_FAULT.mask
+    | ErrorStatus.KILL_INPUT_ACTIVE.mask
+    | ErrorStatus.USER_FAULT_INPUT.mask
+    | ErrorStatus.ENABLE_INPUT_OPEN.mask
+)
+"""ER bits that abandon what was under way when they call ERRORP (assumed H)."""
+
+LIMIT_HITS = (ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
+"""ER bits that abandon unless COMEXL keeps the program of that axis (assumed H)."""
+
 
 class Faults:
     """The error state of one unit."""
@@ -38,15 +49,36 @@ class Faults:
     def __init__(self) -> None:
         self.enabled = 0
         self.word = 0
+        self.pending = 0
+        """Bits that have not had their ERRORP branch yet."""
         self.command_text: str | None = None
+        self._abandoning = 0
 
-    def latch(self, bit: ErrorStatus) -> None:
-        """A condition has come up; it shows in ER only if ERROR enables it."""
-        self.word |= bit.mask & self.enabled
+    def latch(self, bit: ErrorStatus, *, abandons: bool = False) -> None:
+        """A condition has come up; it shows in ER, and branches to ERRORP, only if ERROR enables it.
+
+        ``abandons``: the branch is a GOTO whatever the bit, what was under way does not go on.
+        """
+        mask = bit.mask & self.enabled
+        self.word |= mask
+        self.pending |= mask
+        if abandons:
+            self._abandoning |= mask
 
     def clear(self, mask: int) -> None:
         """What caused these bits has been put right."""
         self.word &= ~mask
+        self.pending &= ~mask
+
+    def take_pending(self) -> tuple[int, bool]:
+        """The bits whose branch is due, and whether one of them is a GOTO by its own cause."""
+        pending, abandoning = self.pending, self._abandoning & self.pending
+        self.pending = self._abandoning = 0
+        return pending, bool(abandoning)
+
+    def branch_again(self) -> None:
+        """The error program has come to its end: it is called again for every bit that is still set."""
+        self.pending = self.word
 
     def bad_command(self, text: str) -> None:
         """Remember a refused command for TCMDER and SS bit 11."""
@@ -56,6 +88,7 @@ class Faults:
         """ERROR: which conditions are watched; bits switched off are cleared."""
         self.enabled = mask
         self.word &= mask
+        self.pending &= mask
 
 
 def clear_without_cause(controller: Controller, *bits: ErrorStatus) -> None:
@@ -66,6 +99,18 @@ def clear_without_cause(controller: Controller, *bits: ErrorStatus) -> None:
     for bit in bits:
         if not shown & CAUSES[bit]:
             controller.faults.clear(bit.mask)
+
+
+def branch_abandons(controller: Controller, bits: int) -> bool:
+    """Whether the ERRORP branch for these ER bits is a GOTO; a Stop or Kill has said so itself (``latch``)."""
+    if bits & ALWAYS_GOTO:
+        return True
+    causes = sum(CAUSES[bit] for bit in LIMIT_HITS if bits & bit.mask)
+    settings = controller.settings
+    return any(
+        controller.engine.status(axis_index) & causes and not settings.flag("COMEXL", axis_index)
+        for axis_index in range(settings.axes)
+    )
 
 
 @applies("ERROR")

@@ -10,18 +10,27 @@ The states of the buffer, and what ends each:
 ===============  ======================================================
 ready            takes the next command, from the program if one runs
 waiting          ``wait.over()``, looked at after every engine event
-paused           C (after PS, or after a stop under COMEXS1)
+paused           C (after PS, BP, or a stop under COMEXS1)
+stepping         ``!#n`` (STEP1, in front of each program command)
 ===============  ======================================================
+
+In each of them an error (ERRORP) or an ON condition (ONP) may put a program on top: what the buffer was waiting for is
+kept with that program and comes back at its end.  Programs take turns with time: a few commands a system update.
 """
 
 from __future__ import annotations
 
 from collections import Counter, deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from emulator.controller import dispatch
-from emulator.controller.waits import NEVER, MotionWait, UpdateWait, Wait
+from emulator.controller.execution import Cause
+from emulator.controller.faults import branch_abandons
+from emulator.controller.preparation import OPENERS, Prepared
+from emulator.controller.runner import Runner
+from emulator.controller.typed_block import TypedBlock
+from emulator.controller.waits import NEVER, ConditionWait, Held, MotionWait, UpdateWait, Wait
 from protocol.command import Command, addressed_unit, is_immediate_text, parse_command
 from protocol.errors import (
     INVALID_CONDITIONS,
@@ -35,16 +44,9 @@ from protocol.status import ErrorStatus
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
 
-PROGRAM_COMMANDS_PER_UPDATE = 8
-"""Commands a program carries out in one system update (assumed L: a few tenths of a millisecond each)."""
-
 MAX_BUFFERED_CHARACTERS = 65_536
 """Characters of waiting commands of one connection beyond which more of its input stays on the wire (ours; the unit's
 own buffer of 2000 bytes belongs to the timed serial line)."""
-
-
-ENTRY_CHARACTERS = 8
-"""What a waiting command counts beyond its text, so that a flood of empty lines is held back too (ours)."""
 
 
 @dataclass(slots=True)
@@ -71,12 +73,16 @@ class Interpreter:
         self._prompt_per_command = controller.machine.serial.prompt_per == "command"
         self._buffer: deque[Entry] = deque()
         self._buffered_characters: Counter[int | None] = Counter()
-        self._program_budget = PROGRAM_COMMANDS_PER_UPDATE
+        self._execution = controller.programs.execution
+        self._runner = Runner(controller)
+        self._block: TypedBlock | None = None
         self._waiting_entry: Entry | None = None
         self._program_entry: Entry | None = None
-        self._abandoned = 0
+        self.abandoned = 0
+        """How often everything under way was given up by RESET or power-down."""
         self.wait: Wait | None = None
         self.paused = False
+        self._at_break_point = False
         self.immediate_now = False
         self.channel: int | None = None
 
@@ -90,7 +96,7 @@ class Interpreter:
     @property
     def busy(self) -> bool:
         """Something is under way that ends by itself."""
-        return self.wait is not None or self._controller.programs.running
+        return self.wait is not None or self._execution.running
 
     @property
     def idle(self) -> bool:
@@ -100,8 +106,18 @@ class Interpreter:
             and not self._buffer
             and not self.paused
             and self._program_entry is None
-            and not self._controller.programs.running
+            and not self._execution.frames
         )
+
+    @property
+    def at_break_point(self) -> bool:
+        """Paused by BP (SS bit 12)."""
+        return self.paused and self._at_break_point
+
+    @property
+    def due(self) -> bool:
+        """Errors or ON conditions have to be looked at."""
+        return self._controller.faults.pending != 0 or self._controller.on_conditions.active
 
     def full(self, channel: int) -> bool:
         """More commands of this connection wait than is good for memory."""
@@ -110,11 +126,17 @@ class Interpreter:
     # Commands coming in.
 
     def accept(self, text: str, channel: int, *, ends_line: bool) -> None:
-        """Take one command from a connection: carry it out now if it is immediate, else queue it."""
+        """Take one command from a connection: carry it out now if it is immediate, else queue it.
+
+        ``!`` before a loop or IF is for the whole block, which a host sends on one line: it goes to the buffer.
+        """
         entry = self._read(text, channel, ends_line)
         if entry is None:
             return
-        if is_immediate_text(text) if entry.command is None else entry.command.immediate:
+        command = entry.command
+        if command is not None and command.immediate and command.name in OPENERS:
+            entry.command = replace(command, immediate=False)
+        elif is_immediate_text(text) if command is None else command.immediate:
             self._carry_out_immediate(entry)
             return
         self._enqueue(entry)
@@ -130,7 +152,7 @@ class Interpreter:
     def _enqueue(self, entry: Entry) -> None:
         if self.idle:
             self._carry_out(entry)
-            if self.wait is not None or self._controller.programs.running:
+            if self.wait is not None or self._execution.frames or self.due:
                 self.run()
             return
         self._buffer.append(entry)
@@ -157,7 +179,12 @@ class Interpreter:
 
     def run(self) -> None:
         """Carry out what the buffer (or the running program) holds until something makes it wait."""
-        while not self.paused:
+        while True:
+            if self.due:
+                self._interrupt()
+            if self.paused:
+                return
+            self._at_break_point = False
             if self.wait is not None:
                 if not self.wait.over(self._controller):
                     return
@@ -166,10 +193,9 @@ class Interpreter:
                 return
 
     def _step(self) -> bool:
-        """Carry out one command; False when there is nothing to do or the buffer has to wait."""
-        programs = self._controller.programs
-        if programs.running:
-            return self._step_program()
+        """Carry on where the unit is; False when there is nothing to do or the buffer has to wait."""
+        if self._execution.frames:
+            return self._runner.run()
         if self._program_entry is not None:
             entry, self._program_entry = self._program_entry, None
             self._finish(entry, None)
@@ -181,43 +207,43 @@ class Interpreter:
         self._carry_out(entry)
         return True
 
-    def _step_program(self) -> bool:
-        if self._program_budget == 0:
-            self._program_budget = PROGRAM_COMMANDS_PER_UPDATE
-            self.wait = UpdateWait(self._controller.engine.next_system_update_ns)
-            return True
-        self._program_budget -= 1
-        command = self._controller.programs.next_command()
-        if command is not None:
-            self._carry_out(Entry(command.text, command, None, self._controller.programs.channel, prompted=False))
-        return True
-
     def _carry_out(self, entry: Entry) -> None:
         if entry.command is None:
             self._answer_unreadable(entry)
             return
-        controller = self._controller
-        was_running, abandoned = controller.programs.running, self._abandoned
+        execution = self._execution
+        was_running, abandoned = execution.running, self.abandoned
         self.channel = entry.channel
         try:
-            if controller.programs.defining and controller.programs.stores(entry.command):
-                controller.programs.store(entry.command)
-                lines = None
-            else:
-                lines = dispatch.carry_out(controller, entry.command)
+            lines = self._act(entry.command)
         except CommandError as error:
             self._fail(entry, error)
             return
-        if self._abandoned != abandoned:
+        if self.abandoned != abandoned:
             return
-        if controller.programs.running and not was_running:
+        if execution.frames and not was_running:
             self._program_entry = entry
-            controller.programs.channel = entry.channel
-            self._program_budget = PROGRAM_COMMANDS_PER_UPDATE
+            execution.channel = entry.channel
         elif self.wait is not None and not self._prompts_at_once(self.wait):
             self._waiting_entry = entry
         else:
             self._finish(entry, lines)
+
+    def _act(self, command: Command) -> dispatch.Lines:
+        """A buffered command is stored, collected, or carried out."""
+        programs = self._controller.programs
+        if programs.stores(command):
+            programs.store(command)
+            return None
+        if self._block is None and command.name in OPENERS:
+            self._block = TypedBlock()
+        if self._block is None or command.name == "END":
+            return dispatch.carry_out(self._controller, command)
+        complete = self._block.add(command)
+        if complete is not None:
+            self._block = None
+            self._execution.call("", complete)
+        return None
 
     def _prompts_at_once(self, wait: Wait) -> bool:
         """Machine option: the prompt of GO does not wait for the end of the move."""
@@ -227,10 +253,13 @@ class Interpreter:
         """Carry a command out ahead of everything that waits; it never waits itself."""
         if entry.command is None:
             self._answer_unreadable(entry)
+            self.run()
             return
         self.immediate_now = True
         self.channel = entry.channel
-        abandoned = self._abandoned
+        abandoned = self.abandoned
+        if not self._execution.frames:
+            self._execution.channel = entry.channel
         try:
             if entry.command.row is None or entry.command.row.immediate == "buffered":
                 raise CommandError(INVALID_CONDITIONS)
@@ -238,7 +267,7 @@ class Interpreter:
         except CommandError as error:
             self._fail(entry, error)
         else:
-            if self._abandoned == abandoned:
+            if self.abandoned == abandoned:
                 self._finish(entry, lines)
         finally:
             self.immediate_now = False
@@ -251,12 +280,16 @@ class Interpreter:
             self._finish(entry, None)
 
     def _end_wait(self) -> None:
+        self._disarm()
         self.wait = None
-        self._controller.engine.clear_watches()
-        self._program_budget = PROGRAM_COMMANDS_PER_UPDATE
         entry, self._waiting_entry = self._waiting_entry, None
         if entry is not None:
             self._finish(entry, None)
+
+    def _disarm(self) -> None:
+        """The engine need not watch a condition that nobody waits for any longer."""
+        if isinstance(self.wait, ConditionWait):
+            self._controller.engine.clear_watches()
 
     def _finish(self, entry: Entry, lines: dispatch.Lines) -> None:
         framing = self._controller.framing
@@ -266,11 +299,68 @@ class Interpreter:
         self._controller.send(data, entry.channel)
 
     def _fail(self, entry: Entry, error: CommandError) -> None:
+        self.refuse(entry.text, error, entry.channel)
+
+    def refuse(self, text: str, error: CommandError, channel: int | None) -> None:
+        """A command is refused: remember it for TCMDER, set ER bit 16, tell the host."""
         controller = self._controller
-        controller.faults.bad_command(entry.text)
+        controller.faults.bad_command(text)
         controller.faults.latch(ErrorStatus.BAD_COMMAND)
         framing = controller.framing
-        controller.send(framing.error(error.text) + framing.prompt(good=False), entry.channel)
+        controller.send(framing.error(error.text) + framing.prompt(good=False), channel)
+
+    # Programs that interrupt.
+
+    def _interrupt(self) -> None:
+        """Put the ERRORP or ONP program on top of what is under way, if one is due."""
+        execution, controller = self._execution, self._controller
+        if controller.faults.pending and not execution.interrupted_by(Cause.ERROR):
+            self._branch_on_error()
+        conditions = controller.on_conditions
+        if conditions.active:
+            name = controller.settings.program_name("ONP")
+            free = not self.paused and not execution.interrupted_by(Cause.ERROR, Cause.CONDITION)
+            may_call = free and controller.programs.exists(name)
+            if conditions.take_due(controller, may_call=may_call):
+                self._put_on_top(name, Cause.CONDITION)
+
+    def _branch_on_error(self) -> None:
+        """ER: GOSUB keeps what is under way, GOTO gives the programs up (settled table); without ERRORP nothing
+        happens."""
+        bits, abandons = self._controller.faults.take_pending()
+        name = self._controller.settings.program_name("ERRORP")
+        if not self._controller.programs.exists(name):
+            return
+        if abandons or branch_abandons(self._controller, bits):
+            self._end_programs()
+        self._put_on_top(name, Cause.ERROR)
+
+    def _put_on_top(self, name: str, cause: Cause) -> None:
+        if not self._execution.frames:
+            self._execution.channel = self.channel
+        held = Held(self.wait, self._waiting_entry, self.paused, self._at_break_point)
+        self._disarm()
+        self.wait, self._waiting_entry, self.paused = None, None, False
+        self._execution.interrupt(name, self._controller.programs.prepared(name), cause, held)
+
+    def leave_program(self) -> None:
+        """The innermost program has come to its end."""
+        frame = self._execution.leave()
+        if frame.held is not None:
+            self._take_back(frame.held)
+        if frame.cause is Cause.ERROR:
+            self._controller.faults.branch_again()
+
+    def _take_back(self, held: Held) -> None:
+        self.wait, self._waiting_entry = held.wait, held.entry
+        self.paused, self._at_break_point = held.paused, held.break_point
+
+    def jump(self, name: str, program: Prepared, at: int) -> None:
+        """JUMP: nothing that is open stays open, calls and interrupts included."""
+        held = self._execution.clear()
+        self._execution.call(name, program, at=at)
+        if held is not None and held.entry is not None:
+            self._execution.frames[0].held = held
 
     # What other commands do to the buffer.
 
@@ -280,30 +370,62 @@ class Interpreter:
         if not self.immediate_now:
             self.wait = wait
 
+    def pause(self, *, break_point: bool = False) -> None:
+        """PS, BP: nothing more leaves the buffer until C."""
+        self.paused, self._at_break_point = True, break_point
+
+    def turn_over(self, until_ns: int) -> None:
+        """The program has done what it may in this system update."""
+        self.wait = UpdateWait(until_ns)
+
     def start_program(self, name: str) -> None:
         """Have a program that nobody typed (STARTP) carried out next; what it says goes to everyone."""
-        self._controller.programs.channel = None
+        self._execution.channel = None
         self._controller.programs.call(name)
 
     def say(self, lines: list[ReplyLine]) -> None:
         """Send lines that no query asked for to whoever started what runs."""
         self._controller.send(self._controller.framing.reply(lines), self.channel)
 
+    def end_program_wait(self) -> None:
+        """What waits inside a program waits no longer; a move, and what was typed, keep the buffer."""
+        if self.wait is not None and self._waiting_entry is None and not isinstance(self.wait, MotionWait):
+            self._end_wait()
+
+    def _end_programs(self) -> None:
+        """Every program is given up, and what waits inside them."""
+        if not self._execution.frames:
+            return
+        held = self._execution.clear()
+        if held is not None and held.entry is not None:
+            self.wait, self._waiting_entry = held.wait, held.entry
+        self.end_program_wait()
+        self.paused = False
+
+    def halt(self) -> None:
+        """HALT: all program execution ends, and the error that an error program was called for with it."""
+        self._controller.faults.take_pending()
+        self._end_programs()
+
     def discard(self) -> None:
         """Empty the buffer and end program execution.
 
         A move under way still ends with its prompt; a dwell, a condition or a pause ends here.
         """
+        self._end_programs()
         self.paused = False
+        self._controller.pausing.forget()
+        self._controller.thumbwheels.release()
+        self._block = None
         self._buffer.clear()
         self._buffered_characters.clear()
-        self._controller.programs.halt()
         if self.wait is not None and not isinstance(self.wait, MotionWait):
             self._end_wait()
 
     def abandon(self) -> None:
         """Power-down or RESET: nothing of what waits will ever be answered, the command under way included."""
-        self._abandoned += 1
+        self.abandoned += 1
+        self._execution.clear()
         self._waiting_entry = None
         self._program_entry = None
         self.discard()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from decimal import ROUND_DOWN, Decimal
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,7 @@ from protocol.errors import (
     DRIVE_SHUTDOWN,
     ENABLE_INPUT_INACTIVE,
     INCORRECT_DATA,
+    MOTION_IN_PROGRESS,
     NOT_ALLOWED_IF_SFB0,
     CommandError,
     s_curve_acceleration,
@@ -64,11 +66,29 @@ def _axes_to_start(controller: Controller, command: Command) -> list[int]:
         raise CommandError(ENABLE_INPUT_INACTIVE)
     candidates = range(controller.settings.axes_in_use) if named is None else named
     enabled = [axis_index for axis_index in candidates if controller.engine.is_enabled(axis_index)]
-    if candidates and (not enabled or (named is not None and len(enabled) < len(named))):
+    if candidates and not enabled:
         raise CommandError(DRIVE_SHUTDOWN)
-    if any(controller.settings.integer("SFB", axis_index) == OPEN_LOOP for axis_index in enabled):
-        raise CommandError(NOT_ALLOWED_IF_SFB0)
+    check_ready(controller, enabled if named is None else named)
     return enabled
+
+
+def check_ready(controller: Controller, axes: Iterable[int]) -> None:
+    """Refuse to start axes that cannot move, or that homing, jogging or the joystick moves already.
+
+    Raises:
+        CommandError: ENABLE open, drive shut down, open loop, MOTION IN PROGRESS (for the jog and joystick modes
+            assumed: a C host of 6K units saw it with the joystick on).
+    """
+    if not controller.wiring.enable_grounded:
+        raise CommandError(ENABLE_INPUT_INACTIVE)
+    for axis_index in axes:
+        if not controller.engine.is_enabled(axis_index):
+            raise CommandError(DRIVE_SHUTDOWN)
+        if controller.settings.integer("SFB", axis_index) == OPEN_LOOP:
+            raise CommandError(NOT_ALLOWED_IF_SFB0)
+        by_hand = controller.settings.flag("JOG", axis_index) or controller.settings.flag("JOY", axis_index)
+        if by_hand or controller.homing.active(axis_index):
+            raise CommandError(MOTION_IN_PROGRESS)
 
 
 def named_axes(controller: Controller, command: Command) -> list[int] | None:
@@ -84,17 +104,19 @@ def named_axes(controller: Controller, command: Command) -> list[int] | None:
     return None
 
 
-def check_s_curve(controller: Controller, axis_index: int) -> None:
+def check_s_curve(controller: Controller, axis_index: int, family: str = "") -> None:
     """A/2 <= AA <= A and the same for the deceleration, checked at GO and never before (a host sets them one by one).
+
+    ``family`` names the ramps: HOM for HOMA, HOMAA ..., JOG, JOY, or none for A, AA ...
 
     Raises:
         CommandError: INVALID CONDITIONS FOR S_CURVE ...
     """
     settings = controller.settings
-    maximum, average = settings.counts("A", axis_index), settings.counts("AA", axis_index)
+    maximum, average = settings.counts(f"{family}A", axis_index), settings.counts(f"{family}AA", axis_index)
     if not maximum <= 2 * average <= 2 * maximum:
         raise s_curve_acceleration(axis_index + 1)
-    maximum, average = settings.counts("AD", axis_index), settings.counts("ADA", axis_index)
+    maximum, average = settings.counts(f"{family}AD", axis_index), settings.counts(f"{family}ADA", axis_index)
     if not maximum <= 2 * average <= 2 * maximum:
         raise s_curve_deceleration(axis_index + 1)
 
@@ -158,14 +180,14 @@ def _continuous(controller: Controller, axis_index: int, direction: int) -> Segm
     return plan_continuous(state.position, state.velocity, velocity, *ramps(controller, axis_index))
 
 
-def ramps(controller: Controller, axis_index: int) -> tuple[float, float, float, float]:
-    """A, AD, AA, ADA in force, counts/s2: the order the planner takes them in."""
+def ramps(controller: Controller, axis_index: int, family: str = "") -> tuple[float, float, float, float]:
+    """A, AD, AA, ADA of a family (HOM, JOG, JOY) in force, counts/s2: the order the planner takes them in."""
     counts = controller.settings.counts
     return (
-        float(counts("A", axis_index)),
-        float(counts("AD", axis_index)),
-        float(counts("AA", axis_index)),
-        float(counts("ADA", axis_index)),
+        float(counts(f"{family}A", axis_index)),
+        float(counts(f"{family}AD", axis_index)),
+        float(counts(f"{family}AA", axis_index)),
+        float(counts(f"{family}ADA", axis_index)),
     )
 
 

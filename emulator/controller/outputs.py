@@ -1,4 +1,4 @@
-"""Programmable outputs: OUT and OUTALL."""
+"""Programmable outputs: OUT and OUTALL.  What the functions of OUTFNC make of them is in ``output_functions``."""
 
 from __future__ import annotations
 
@@ -9,15 +9,13 @@ from emulator.controller import words
 from emulator.controller.dispatch import Lines, handles
 from emulator.controller.settings import bit_of
 from protocol.command import Command
-from protocol.errors import INCORRECT_DATA, INVALID_DATA, CommandError
+from protocol.errors import INCORRECT_DATA, INVALID_DATA, OUTPUT_BIT_USED_AS_OUTFNC, CommandError
 from protocol.reply_shapes import bit_line, word_line
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
 
 OUTALL_FIELDS = 3
-AUXILIARY_OUTPUTS = 2
-"""OUT-A and OUT-B, the bits after the programmable outputs."""
 
 
 @handles("OUT")
@@ -28,13 +26,28 @@ def out(controller: Controller, command: Command) -> Lines:
     if command.is_query:
         bits = words.outputs(controller)
         return [bit_line(bit_of(bits, command.bit)) if command.bit is not None else word_line(row, None, bits)]
-    count = output_count(controller)
+    command = controller.substitute(command)
+    count = controller.output_functions.count
     if command.bit is not None and not 1 <= command.bit <= count:
         raise CommandError(INVALID_DATA)
     if "1" in command.mask[count:]:
         raise CommandError(INCORRECT_DATA)
+    if command.bit is not None:
+        _refuse_assigned(controller, {command.bit})
+    else:
+        _refuse_assigned(controller, {n for n, digit in enumerate(command.mask, start=1) if digit in "01"})
     controller.settings.assign(command)
     return None
+
+
+def _refuse_assigned(controller: Controller, numbers: set[int]) -> None:
+    """An output with a function is not the program's to switch, whatever OUTFEN says (assumed).
+
+    Raises:
+        CommandError: OUTPUT BIT USED AS OUTFNC.
+    """
+    if numbers & controller.output_functions.assigned_numbers:
+        raise CommandError(OUTPUT_BIT_USED_AS_OUTFNC)
 
 
 @handles("OUTALL")
@@ -44,13 +57,9 @@ def out_all(controller: Controller, command: Command) -> Lines:
     if len(values) != OUTALL_FIELDS or len(command.values) != OUTALL_FIELDS:
         raise CommandError(INCORRECT_DATA)
     first, last, state = (int(value) for value in values)
-    if not 1 <= first <= last <= output_count(controller) or state not in (0, 1):
+    if not 1 <= first <= last <= controller.output_functions.count or state not in (0, 1):
         raise CommandError(INVALID_DATA)
+    _refuse_assigned(controller, set(range(first, last + 1)))
     bits = controller.settings.bits("OUT")
     controller.settings.store_bits("OUT", bits[: first - 1] + str(state) * (last - first + 1) + bits[last:])
     return None
-
-
-def output_count(controller: Controller) -> int:
-    """Outputs of this unit, the auxiliary ones included."""
-    return controller.machine.io.outputs + AUXILIARY_OUTPUTS

@@ -1,30 +1,34 @@
-"""Stored programs: DEF, END, DEL, the listing commands, and which program runs.
+"""Stored programs: DEF, END, DEL, ERASE and MEMORY, and which program is called by which name.
 
-Programs keep their commands as text, as TPROG prints them, and each is read when it is carried out.  The flow commands
-inside programs (IF, loops, GOTO ...) are not part of this module.
+Programs keep their commands as text, as TPROG prints them; before one runs it is prepared once (``preparation``).
+What runs is on the stack of ``execution``.  A definition belongs to the unit, not to the connection that began it: if
+the line goes dead in the middle, it stays open until END, and whoever types next goes on with it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from emulator.controller.dispatch import Lines, handles, is_implemented
-from protocol.command import Command, check_program_name, is_command_name, parse_command
+from emulator.controller.data_statements import BYTES_PER_STATEMENT, check_place
+from emulator.controller.dispatch import Lines, applies, handles, is_implemented, store_setting
+from emulator.controller.execution import Execution
+from emulator.controller.preparation import Prepared, condition_of, prepare
+from protocol.command import Command, check_program_name, is_command_name
 from protocol.errors import (
     COMMAND_NOT_ALLOWED_IN_PROGRAM,
     COMMAND_NOT_IMPLEMENTED,
     INCORRECT_DATA,
     INSUFFICIENT_MEMORY,
     INVALID_CONDITIONS,
-    NEST_LEVEL_TOO_DEEP,
+    LABEL_ALREADY_DEFINED,
     NO_PROGRAM_BEING_DEFINED,
     STRING_ALREADY_DEFINED,
     STRING_IS_A_COMMAND,
     UNDEFINED_LABEL,
     CommandError,
+    invalid_data_field,
 )
-from protocol.reply import ReplyLine
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -35,35 +39,48 @@ BYTES_PER_COMMAND = 1
 NOT_STORABLE = frozenset({"DEF", "ERASE", "MEMORY", "RESET", "'", "#"})
 """Commands refused between DEF and END (assumed L)."""
 
+ACCESS_DENIED = "ACCESS DENIED"
+"""What the guarded commands answer while the program security input is inactive."""
+
+NO_NAME = "CLR"
+"""The word that clears STARTP, ERRORP and ONP, and so names no program."""
+
 
 @dataclass(slots=True)
-class Frame:
-    """A program being carried out and the command that comes next."""
+class Program:
+    """One stored program: its text, the memory it takes, and its prepared form once it has been needed."""
 
-    name: str
-    lines: list[str]
-    next_line: int = 0
+    texts: list[str] = field(default_factory=list)
+    labels: list[str] = field(default_factory=list)
+    size: int = 0
+    prepared: Prepared | None = None
 
 
 class Programs:
-    """The programs of one unit and the stack of those being carried out."""
+    """The programs of one unit."""
 
-    def __init__(self, *, capacity_bytes: int, max_programs: int, max_nesting: int) -> None:
+    def __init__(self, *, capacity_bytes: int, max_programs: int, max_nesting: int, max_labels: int) -> None:
         self.capacity_bytes = capacity_bytes
         self._max_programs = max_programs
-        self._max_nesting = max_nesting
-        self._stored: dict[str, list[str]] = {}
-        self._frames: list[Frame] = []
+        self._max_labels = max_labels
+        self._stored: dict[str, Program] = {}
+        self._used = 0
+        self.execution = Execution(max_nesting)
         self.defining: str | None = None
-        self.running = False
-        """A program is being carried out (SS bit 3)."""
-        self.channel: int | None = None
-        """The connection that started what runs, and hears what it says."""
 
     @property
     def names(self) -> list[str]:
         """The stored programs in the order they were defined."""
         return list(self._stored)
+
+    @property
+    def running(self) -> bool:
+        """A program is being carried out (SS bit 3)."""
+        return bool(self.execution.frames)
+
+    def exists(self, name: str) -> bool:
+        """Whether a program of this name is stored."""
+        return name in self._stored
 
     def lines(self, name: str) -> list[str]:
         """The commands of a program.
@@ -71,6 +88,9 @@ class Programs:
         Raises:
             CommandError: UNDEFINED LABEL.
         """
+        return self._find(name).texts
+
+    def _find(self, name: str) -> Program:
         try:
             return self._stored[name]
         except KeyError:
@@ -78,12 +98,20 @@ class Programs:
 
     def bytes_used(self, name: str) -> int:
         """Program memory one program takes."""
-        return sum(len(line) + BYTES_PER_COMMAND for line in self._stored[name])
+        return self._stored[name].size
 
     @property
     def bytes_free(self) -> int:
         """Program memory left."""
-        return self.capacity_bytes - sum(self.bytes_used(name) for name in self._stored)
+        return self.capacity_bytes - self._used
+
+    def labels(self) -> list[tuple[str, str]]:
+        """Every label and the program it is in."""
+        return [(label, name) for name, program in self._stored.items() for label in program.labels]
+
+    def owner_of_label(self, label: str) -> str | None:
+        """The first program with this label."""
+        return next((name for name, program in self._stored.items() if label in program.labels), None)
 
     # Defining.
 
@@ -93,14 +121,12 @@ class Programs:
         Raises:
             CommandError: the name is no name, a command, taken, or there are too many programs.
         """
-        check_program_name(name)
-        if is_command_name(name) or name == "CLR":
-            raise CommandError(STRING_IS_A_COMMAND)
+        _check_name(name)
         if name in self._stored:
             raise CommandError(STRING_ALREADY_DEFINED)
         if len(self._stored) >= self._max_programs:
             raise CommandError(INSUFFICIENT_MEMORY)
-        self._stored[name] = []
+        self._stored[name] = Program()
         self.defining = name
 
     def stores(self, command: Command) -> bool:
@@ -113,14 +139,27 @@ class Programs:
         Raises:
             CommandError: it cannot be stored, or memory is full.
         """
-        if command.name in NOT_STORABLE:
-            raise CommandError(COMMAND_NOT_ALLOWED_IN_PROGRAM)
-        if not is_implemented(command):
-            raise CommandError(COMMAND_NOT_IMPLEMENTED)
-        if self.bytes_free < len(command.text) + BYTES_PER_COMMAND:
-            raise CommandError(INSUFFICIENT_MEMORY)
         assert self.defining is not None
-        self._stored[self.defining].append(command.text)
+        check_storable(command)
+        program = self._stored[self.defining]
+        check_place(self.defining, command)
+        size = BYTES_PER_STATEMENT if command.name == "DATA" else len(command.text) + BYTES_PER_COMMAND
+        if self.bytes_free < size:
+            raise CommandError(INSUFFICIENT_MEMORY)
+        if command.name == "$":
+            self._add_label(program, command.argument)
+        program.texts.append(command.text)
+        program.size += size
+        self._used += size
+        program.prepared = None
+
+    def _add_label(self, program: Program, label: str) -> None:
+        _check_name(label)
+        if label in program.labels:
+            raise CommandError(LABEL_ALREADY_DEFINED)
+        if len(self.labels()) >= self._max_labels:
+            raise CommandError(INSUFFICIENT_MEMORY)
+        program.labels.append(label)
 
     def end(self) -> None:
         """END: close the definition.
@@ -140,18 +179,33 @@ class Programs:
         """DEL: remove a program; False when there is none of that name.
 
         Raises:
-            CommandError: it is being carried out.
+            CommandError: it is being carried out, or defined.
         """
-        if any(frame.name == name for frame in self._frames):
+        if self.execution.uses(name) or name == self.defining:
             raise CommandError(INVALID_CONDITIONS)
-        return self._stored.pop(name, None) is not None
+        program = self._stored.pop(name, None)
+        if program is not None:
+            self._used -= program.size
+        return program is not None
 
     def erase(self) -> None:
-        """ERASE: remove all programs and end what runs."""
-        self.halt()
+        """ERASE: no program is left; the caller has ended what runs."""
         self._stored.clear()
+        self._used = 0
+        self.defining = None
 
     # Carrying out.
+
+    def prepared(self, name: str) -> Prepared:
+        """A program ready to run.
+
+        Raises:
+            CommandError: UNDEFINED LABEL.
+        """
+        program = self._find(name)
+        if program.prepared is None:
+            program.prepared = prepare(program.texts)
+        return program.prepared
 
     def call(self, name: str) -> None:
         """Carry a program out; inside a program this is a subroutine call.
@@ -159,48 +213,63 @@ class Programs:
         Raises:
             CommandError: UNDEFINED LABEL, NEST LEVEL TOO DEEP.
         """
-        lines = self.lines(name)
-        if len(self._frames) >= self._max_nesting:
-            raise CommandError(NEST_LEVEL_TOO_DEEP)
-        self._frames.append(Frame(name, list(lines)))
-        self.running = True
-
-    def next_command(self) -> Command | None:
-        """The next command of what runs; None when a program has come to its end (its caller goes on)."""
-        frame = self._frames[-1]
-        if frame.next_line >= len(frame.lines):
-            self._frames.pop()
-            self.running = bool(self._frames)
-            return None
-        text = frame.lines[frame.next_line]
-        frame.next_line += 1
-        return parse_command(text)
-
-    def halt(self) -> None:
-        """End all program execution."""
-        self._frames.clear()
-        self.running = False
+        self.execution.call(name, self.prepared(name))
 
     @property
     def executing(self) -> tuple[str, str] | None:
-        """Name of the program under way and the command that comes next, for TEX."""
-        if not self._frames:
+        """Name of the program under way and the command that comes next, for TEX; a typed block is no program."""
+        frame = next((frame for frame in reversed(self.execution.frames) if frame.name), None)
+        if frame is None:
             return None
-        frame = self._frames[-1]
-        following = frame.lines[frame.next_line] if frame.next_line < len(frame.lines) else "END"
+        following = frame.code[frame.next].command.text if frame.next < len(frame.code) else "END"
         return frame.name, following
 
 
-def _name(command: Command) -> str:
+def check_storable(command: Command) -> None:
+    """Whether a command may stand in a program, or in a loop typed at the buffer.
+
+    Raises:
+        CommandError: it may not, this unit does not have it, or its condition cannot be read.
+    """
+    if command.name in NOT_STORABLE:
+        raise CommandError(COMMAND_NOT_ALLOWED_IN_PROGRAM)
+    if not is_implemented(command):
+        raise CommandError(COMMAND_NOT_IMPLEMENTED)
+    condition_of(command)
+
+
+def _check_name(name: str) -> None:
+    check_program_name(name)
+    if is_command_name(name) or name == NO_NAME:
+        raise CommandError(STRING_IS_A_COMMAND)
+
+
+def name_of(command: Command) -> str:
+    """The program a command names.
+
+    Raises:
+        CommandError: INCORRECT DATA when it names none.
+    """
     if not command.argument:
         raise CommandError(INCORRECT_DATA)
-    return command.argument
+    return command.argument.removeprefix("$")
+
+
+def require_access(controller: Controller) -> None:
+    """Programs may be looked at and changed: no program security, or its input is active.
+
+    Raises:
+        CommandError: ACCESS DENIED.
+    """
+    if controller.security_locked:
+        raise CommandError(ACCESS_DENIED)
 
 
 @handles("DEF")
 def define(controller: Controller, command: Command) -> Lines:
     """DEF name."""
-    controller.programs.begin(_name(command))
+    require_access(controller)
+    controller.programs.begin(name_of(command))
     return None
 
 
@@ -214,81 +283,77 @@ def end(controller: Controller, command: Command) -> Lines:
 @handles("DEL")
 def delete(controller: Controller, command: Command) -> Lines:
     """DEL name; a name that does not exist is accepted, because scripts send DEL before DEF."""
-    if not controller.programs.delete(_name(command)) and controller.machine.del_missing_is_error:
+    require_access(controller)
+    if not controller.programs.delete(name_of(command)) and controller.machine.del_missing_is_error:
         raise CommandError(UNDEFINED_LABEL)
     return None
 
 
 @handles("ERASE")
 def erase(controller: Controller, command: Command) -> Lines:
-    """ERASE."""
+    """ERASE: what runs ends first (assumed)."""
+    require_access(controller)
+    controller.interpreter.halt()
     controller.programs.erase()
     return None
 
 
-@handles("RUN", "GOSUB")
+@handles("RUN")
 def run(controller: Controller, command: Command) -> Lines:
-    """RUN name, GOSUB name."""
-    controller.programs.call(_name(command))
+    """RUN name; inside a program a subroutine call."""
+    controller.programs.call(name_of(command))
     return None
 
 
 @handles("HALT")
 def halt(controller: Controller, command: Command) -> Lines:
     """HALT: program execution ends, motion goes on (assumed H)."""
-    controller.programs.halt()
+    controller.interpreter.halt()
     return None
 
 
-@handles("STARTP")
-def start_up_program(controller: Controller, command: Command) -> Lines:
-    """STARTP name, STARTP CLR, STARTP."""
+@handles("STARTP", "ERRORP", "ONP")
+def name_program(controller: Controller, command: Command) -> Lines:
+    """STARTP, ERRORP, ONP: a stored program's name, CLR for none, bare to ask."""
     if command.is_query:
         return controller.settings.report(command)
-    if command.argument != "CLR":
+    if command.argument != NO_NAME:
         controller.programs.lines(command.argument)
     controller.settings.assign(command)
     return None
 
 
-@handles("TPROG")
-def list_program(controller: Controller, command: Command) -> Lines:
-    """TPROG name: each stored command on its own line."""
-    return [ReplyLine("", line) for line in controller.programs.lines(_name(command))] or [ReplyLine("", "")]
+@handles("MEMORY")
+def divide_memory(controller: Controller, command: Command) -> Lines:
+    """MEMORY programs,compiled: erases every program; bare it only reports (Gem6K PG p.22).
+
+    Raises:
+        CommandError: an odd size or a part outside its range, more than there is, motion, or a program under way.
+    """
+    if command.is_query:
+        return controller.settings.report(command)
+    require_access(controller)
+    _check_sizes(controller, controller.substitute(command))
+    if controller.programs.running:
+        raise CommandError(INVALID_CONDITIONS)
+    store_setting(controller, command)
+    controller.programs.erase()
+    return None
 
 
-@handles("TMEM")
-def memory_free(controller: Controller, command: Command) -> Lines:
-    """TMEM: the two memory lines (text assumed M)."""
-    return memory_lines(controller)
+def _check_sizes(controller: Controller, command: Command) -> None:
+    present = [controller.settings.integer("MEMORY", index) for index in range(2)]
+    given = dict(enumerate(command.values[:2]))
+    for index, value in given.items():
+        if value is not None:
+            present[index] = int(str(value).partition(".")[0])
+            if present[index] % 2:
+                raise invalid_data_field(index + 1)
+    if sum(present) > controller.machine.memory.total_bytes:
+        raise invalid_data_field(len(given))
 
 
-@handles("TDIR")
-def directory(controller: Controller, command: Command) -> Lines:
-    """TDIR: the programs, then the memory lines (text assumed M)."""
-    programs = controller.programs
-    lines = [
-        ReplyLine("", f"{number} - {name} USES {programs.bytes_used(name)} BYTES")
-        for number, name in enumerate(programs.names, start=1)
-    ]
-    return [*(lines or [ReplyLine("", "NO PROGRAMS DEFINED")]), *memory_lines(controller)]
-
-
-@handles("TEX")
-def executing(controller: Controller, command: Command) -> Lines:
-    """TEX: what is being carried out (text assumed L)."""
-    found = controller.programs.executing
-    if found is None:
-        return [ReplyLine("", "PROGRAM NOT EXECUTING")]
-    return [ReplyLine("", f"PROGRAM={found[0]} COMMAND={found[1]}")]
-
-
-def memory_lines(controller: Controller) -> list[ReplyLine]:
-    """Free program bytes and compiled segments; percent rounded."""
-    memory = controller.machine.memory
-    free, capacity = controller.programs.bytes_free, controller.programs.capacity_bytes
-    segments = memory.compiled_bytes // memory.segment_bytes
-    return [
-        ReplyLine("", f"{free} OF {capacity} BYTES ({round(100 * free / capacity)}%) PROGRAM MEMORY REMAINING"),
-        ReplyLine("", f"{segments} OF {segments} SEGMENTS (100%) COMPILED MEMORY REMAINING"),
-    ]
+@applies("MEMORY")
+def apply_memory(controller: Controller, command: Command, changed: list[int]) -> None:
+    """The program part of memory changed."""
+    controller.programs.capacity_bytes = controller.settings.integer("MEMORY")

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 
 from emulator.controller import words
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.readings import VOLT_PLACES, reading_in_user_units, reading_text
+from emulator.controller.readings import reading_in_user_units, reading_text
 from emulator.controller.settings import bit_of
 from protocol.catalogue import CommandRow, status_words
 from protocol.command import Command
 from protocol.fields import axis_indexes
-from protocol.numbers import format_fixed
 from protocol.reply import ReplyLine
 from protocol.reply_shapes import bit_line, label, numbers_line, word_line
 from protocol.status_report import bit_labels, status_table
@@ -42,6 +41,7 @@ _UNIT_WORDS: dict[str, UnitWord] = {
     "TIN": words.inputs,
     "TINO": words.other_inputs,
     "TOUT": words.outputs,
+    "TUS": words.user_status,
     "TSC": lambda controller: "0" * words.WORD,
 }
 _AXIS_TABLES: dict[str, tuple[str, AxisWord]] = {
@@ -91,17 +91,10 @@ def report_axis_word(controller: Controller, command: Command) -> Lines:
 
 @handles(*_UNIT_WORDS)
 def report_unit_word(controller: Controller, command: Command) -> Lines:
-    """TSS, TER, TLIM, TIN, TINO, TOUT, TSC."""
+    """TSS, TER, TLIM, TIN, TINO, TOUT, TUS, TSC."""
     row = _row(command)
     bits = _UNIT_WORDS[row.name](controller)
     return [bit_line(bit_of(bits, command.bit)) if command.bit is not None else word_line(row, None, bits)]
-
-
-@handles("TUS")
-def report_user_status(controller: Controller, command: Command) -> Lines:
-    """TUS: all 0 while INDUSE0; the bits themselves come with INDUST."""
-    bits = "0" * words.USER_BITS
-    return [bit_line(bit_of(bits, command.bit)) if command.bit is not None else word_line(_row(command), None, bits)]
 
 
 @handles(*_AXIS_TABLES)
@@ -131,14 +124,6 @@ def report_settling_time(controller: Controller, command: Command) -> Lines:
     indexes = axis_indexes(command, controller.settings.axes_in_use)
     values = [Decimal(controller.engine.settling_time_ms(index)) for index in indexes]
     return [numbers_line(row, command.axis, values, [0] * len(values))]
-
-
-@handles("TANV")
-def report_analog_voltages(controller: Controller, command: Command) -> Lines:
-    """TANV: the joystick channels in volts."""
-    wiring = controller.wiring
-    values = [Decimal(wiring.analog_reading(index)) for index in range(len(wiring.analog_volts))]
-    return [ReplyLine("TANV", ",".join(format_fixed(round(value, VOLT_PLACES), VOLT_PLACES) for value in values))]
 
 
 @handles("TREV")

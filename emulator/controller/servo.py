@@ -53,6 +53,7 @@ def turn_on(controller: Controller, axis_index: int) -> None:
 def apply_drive_fault_watch(controller: Controller, command: Command, changed: list[int]) -> None:
     """A fault that is there when the watch begins acts at once (6250 UG: the program stops at INFEN1)."""
     controller.check_drive_faults()
+    controller.input_functions.refresh()
 
 
 @applies(*GAIN_COMMANDS)

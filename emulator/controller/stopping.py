@@ -16,38 +16,68 @@ if TYPE_CHECKING:
 KEEP_ON_STOP = 1
 """COMEXS1: a stop keeps program and buffer, C resumes."""
 
+KEEP_SELECTION = 2
+"""COMEXS2: as 0, but program selection by inputs stays in force (assumed H)."""
+
 
 def stop_axes(controller: Controller, axes: Iterable[int], ramp: str) -> None:
-    """Bring moving axes to rest at a deceleration setting (AD, LHAD, LSAD)."""
+    """Bring moving axes to rest at a deceleration setting (AD, LHAD); homing and joystick mode end."""
     for axis_index in axes:
-        if controller.engine.is_moving(axis_index):
-            controller.engine.start_profile(axis_index, stop_segments(controller, axis_index, ramp))
+        controller.homing.abort(axis_index)
+        controller.joystick.leave(axis_index)
+        brake(controller, axis_index, ramp)
+
+
+def brake(controller: Controller, axis_index: int, ramp: str) -> None:
+    """Bring an axis to rest, if it moves, at a deceleration setting (AD, LHAD, LSAD)."""
+    if controller.engine.is_moving(axis_index):
+        controller.engine.start_profile(axis_index, stop_segments(controller, axis_index, ramp))
 
 
 @handles("S")
 def stop(controller: Controller, command: Command) -> Lines:
     """S: decelerate at AD; bare S also ends program execution and empties the buffer (COMEXS says how)."""
     named = named_axes(controller, command)
-    axes = range(controller.settings.axes_in_use) if named is None else named
-    stop_axes(controller, axes, "AD")
-    controller.faults.latch(ErrorStatus.STOP_OR_KILL_ISSUED)
     if named is None:
-        if controller.settings.integer("COMEXS") == KEEP_ON_STOP:
-            controller.interpreter.paused = True
-        else:
-            controller.interpreter.discard()
+        stop_everything(controller, ErrorStatus.STOP_OR_KILL_ISSUED)
+    else:
+        stop_axes(controller, named, "AD")
+        abandons = controller.settings.integer("COMEXS") != KEEP_ON_STOP
+        controller.faults.latch(ErrorStatus.STOP_OR_KILL_ISSUED, abandons=abandons)
     return None
+
+
+def stop_everything(controller: Controller, bit: ErrorStatus) -> None:
+    """Stop all axes; COMEXS says what becomes of program, buffer and program selection (COMEXS2 keeps INSELP)."""
+    stop_axes(controller, range(controller.settings.axes_in_use), "AD")
+    controller.faults.latch(bit)
+    comexs = controller.settings.integer("COMEXS")
+    if comexs == KEEP_ON_STOP:
+        controller.interpreter.paused = True
+        return
+    controller.interpreter.discard()
+    if comexs != KEEP_SELECTION:
+        controller.program_select.leave()
 
 
 @handles("K")
 def kill(controller: Controller, command: Command) -> Lines:
     """K: decelerate at LHAD; bare K also ends program execution and empties the buffer (GemPG p.219)."""
     named = named_axes(controller, command)
-    kill_axes(controller, range(controller.settings.axes_in_use) if named is None else named)
-    controller.faults.latch(ErrorStatus.STOP_OR_KILL_ISSUED)
     if named is None:
-        controller.interpreter.discard()
+        kill_everything(controller, ErrorStatus.STOP_OR_KILL_ISSUED)
+    else:
+        kill_axes(controller, named)
+        controller.faults.latch(ErrorStatus.STOP_OR_KILL_ISSUED, abandons=True)
     return None
+
+
+def kill_everything(controller: Controller, bit: ErrorStatus) -> None:
+    """Kill all axes, end the program, empty the buffer and leave program selection."""
+    kill_axes(controller, range(controller.settings.axes_in_use))
+    controller.faults.latch(bit)
+    controller.interpreter.discard()
+    controller.program_select.leave()
 
 
 def kill_axes(controller: Controller, axes: Iterable[int]) -> None:
@@ -62,7 +92,8 @@ def kill_axes(controller: Controller, axes: Iterable[int]) -> None:
 def end_of_travel(controller: Controller, axis_index: int, ramp: str, bit: ErrorStatus) -> None:
     """A hard (LHAD) or soft (LSAD) limit was run into: stop the axis; without COMEXL1 nothing after it is carried
     out."""
-    stop_axes(controller, (axis_index,), ramp)
+    controller.homing.abort(axis_index)
+    brake(controller, axis_index, ramp)
     controller.faults.latch(bit)
     if not controller.settings.flag("COMEXL", axis_index):
         controller.interpreter.discard()

@@ -41,12 +41,12 @@ def wait(controller: Controller, command: Command) -> Lines:
 @handles("PS")
 def pause(controller: Controller, command: Command) -> Lines:
     """PS: nothing more leaves the buffer until C (SS bit 13)."""
-    controller.interpreter.paused = True
+    controller.interpreter.pause()
     return None
 
 
 @handles("C")
 def go_on(controller: Controller, command: Command) -> Lines:
     """C: resume after PS, or after a stop under COMEXS1."""
-    controller.interpreter.paused = False
+    controller.pausing.go_on()
     return None

@@ -13,6 +13,7 @@ from protocol.status import SystemStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
+    from emulator.controller.interpreter import Entry
 
 NEVER = 1 << 62
 """A virtual time that does not come."""
@@ -84,3 +85,13 @@ class UpdateWait:
 
     def over(self, controller: Controller) -> bool:
         return controller.now_ns >= self.look_again_ns
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """What the buffer was waiting for when a program interrupted it, and the command that gets its prompt then."""
+
+    wait: Wait | None
+    entry: Entry | None
+    paused: bool
+    break_point: bool

@@ -1,7 +1,10 @@
 """The wires at the unit's terminals: contacts that are closed (grounded) or open, and the analogue voltages.
 
-This is the one interface through which the outside (machine file, Python, later a panel) drives inputs.  A change is
-seen by the unit at its next system update."""
+This is the one interface through which the outside (machine file, Python, later a panel) drives inputs: ``set`` for
+contacts by name, ``set_analog`` for voltages.  A change is noticed by the unit at its next system update; programmable
+inputs then have to keep it for the time of INDEB, ENABLE, limits and drive faults act at once.  Outputs are read from
+``output_functions``.
+"""
 
 from __future__ import annotations
 
@@ -9,18 +12,30 @@ from collections.abc import Sequence
 
 from emulator.engine import ENABLE_MASK, Engine, Wire, wire_mask
 from emulator.machine import Machine
+from protocol.status import OtherInputs
 
 TRIGGERS = 2
 """TRG-A and TRG-B, the bits after the programmable inputs."""
 
-ANALOG_CHANNELS = 3
-ANALOG_STEP_V = 2.5 / 256
-"""Resolution of the joystick inputs: 8 bits over 0 to 2.5 V (6250 UG p.67)."""
+FIRST_JOYSTICK_BIT = 32
+"""Contacts of the joystick connector lie above the programmable inputs in the word the servo watches."""
+
+JOYSTICK_CONTACTS = {
+    "joystick.auxiliary": OtherInputs.JOYSTICK_AUXILIARY,
+    "joystick.trigger": OtherInputs.JOYSTICK_TRIGGER,
+    "joystick.axes_select": OtherInputs.JOYSTICK_AXES_SELECT,
+    "joystick.velocity_select": OtherInputs.JOYSTICK_VELOCITY_SELECT,
+    "joystick.release": OtherInputs.JOYSTICK_RELEASE,
+}
+"""The digital inputs of the joystick connector by wire name; closed = sinking current = 1 in INO."""
+
+LOWEST_ANALOG_V, HIGHEST_ANALOG_V = 0.0, 2.5
+"""Range of the joystick channels (6250 UG p.67)."""
 
 
 class Wiring:
     """The terminals of one unit; wire names are ``enable``, ``axis1.positive_limit`` ... ``input.1`` ...
-    ``trigger.a``."""
+    ``trigger.a``, ``joystick.release`` ..."""
 
     def __init__(self, engine: Engine, machine: Machine) -> None:
         self._engine = engine
@@ -42,7 +57,18 @@ class Wiring:
         masks = {f"input.{number}": 1 << (number - 1) for number in range(1, self.inputs + 1)}
         masks["trigger.a"] = 1 << self.inputs
         masks["trigger.b"] = 1 << (self.inputs + 1)
-        return masks
+        return masks | {name: self.joystick_mask(contact) for name, contact in JOYSTICK_CONTACTS.items()}
+
+    @staticmethod
+    def joystick_mask(contact: OtherInputs) -> int:
+        """The bit of a joystick contact in the engine's input word."""
+        return 1 << (FIRST_JOYSTICK_BIT + contact.value - 1)
+
+    def input_name(self, number: int) -> str:
+        """The wire of an input by its number in IN: the triggers come after the programmable inputs."""
+        if number <= self.inputs:
+            return f"input.{number}"
+        return ("trigger.a", "trigger.b")[number - self.inputs - 1]
 
     def _connect(self, machine: Machine) -> None:
         closed = {"enable": machine.wires.enable == "closed"}
@@ -65,11 +91,28 @@ class Wiring:
         return bool(self._engine.inputs & self._input_masks[name])
 
     def set(self, name: str, *, closed: bool) -> None:
-        """Close or open a contact; KeyError for a name the unit does not have."""
+        """Close or open a contact; KeyError for a name the unit does not have.
+
+        A contact with a switch along the travel is given the state it has while the switch is not operated.
+        """
         if name in self._masks:
-            self._engine.set_wires(_with(self._engine.wires, self._masks[name], closed))
+            self._engine.set_wires(_with(self._engine.resting_wires, self._masks[name], closed))
         else:
             self._engine.set_inputs(_with(self._engine.inputs, self._input_masks[name], closed))
+
+    def set_analog(self, channel: int, *, volts: float) -> None:
+        """Set the voltage of a joystick channel (1 to 3).
+
+        Raises:
+            KeyError: no such channel.
+            ValueError: a voltage outside 0 to 2.5 V.
+        """
+        if not 1 <= channel <= len(self.analog_volts):
+            raise KeyError(f"no analogue channel {channel}; there are 1 to {len(self.analog_volts)}")
+        if not LOWEST_ANALOG_V <= volts <= HIGHEST_ANALOG_V:
+            raise ValueError(f"a joystick channel takes 0 to 2.5 V, not {volts}")
+        self.analog_volts[channel - 1] = volts
+        self._engine.report_wires()
 
     @property
     def enable_grounded(self) -> bool:
@@ -94,17 +137,14 @@ class Wiring:
             for wire in wires
         )
 
-    def input_bits(self, *, active_levels: str, overrides: str) -> str:
-        """TIN: 1 = active after INLVL; INEN digits 0 and 1 force an input, E leaves it real."""
+    @staticmethod
+    def input_bits(contacts: int, *, active_levels: str, overrides: str) -> str:
+        """IN of a state of the contacts: 1 = active after INLVL; INEN digits 0 and 1 force an input, E leaves it
+        real."""
         return "".join(
-            override if override in "01" else str((self._engine.inputs >> index & 1) ^ int(level))
+            override if override in "01" else str((contacts >> index & 1) ^ int(level))
             for index, (level, override) in enumerate(zip(active_levels, overrides, strict=True))
         )
-
-    def analog_reading(self, channel_index: int) -> float:
-        """Voltage of a joystick channel as the converter reads it."""
-        volts = self.analog_volts[channel_index]
-        return min(int(volts / ANALOG_STEP_V), 255) * ANALOG_STEP_V
 
 
 def _with(bits: int, mask: int, on: bool) -> int:

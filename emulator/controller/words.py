@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from emulator.controller.wiring import JOYSTICK_CONTACTS
 from protocol.reply import word_bits
 from protocol.status import ExtendedAxisStatus, OtherInputs, SystemStatus
 
@@ -21,9 +22,12 @@ def axis_status(controller: Controller, axis_index: int) -> str:
 
 
 def extended_axis_status(controller: Controller, axis_index: int) -> str:
-    """ASX of one axis: on a unit with external drives only the drive-fault input shows (assumed)."""
-    active = controller.drive_fault_active(axis_index)
-    return word_bits(ExtendedAxisStatus.DRIVE_FAULT_INPUT.mask if active else 0, WORD)
+    """ASX of one axis: on a unit with external drives only the drive-fault input and the Z channel show (assumed)."""
+    conditions = {
+        ExtendedAxisStatus.DRIVE_FAULT_INPUT: controller.drive_fault_active(axis_index),
+        ExtendedAxisStatus.Z_CHANNEL: controller.engine.index_active(axis_index),
+    }
+    return word_bits(sum(bit.mask for bit, on in conditions.items() if on), WORD)
 
 
 def system_status(controller: Controller) -> str:
@@ -37,10 +41,20 @@ def system_status(controller: Controller) -> str:
         SystemStatus.ASCII_MODE: True,
         SystemStatus.ECHO_MODE: settings.host_flag("ECHO"),
         SystemStatus.DEFINING_PROGRAM: programs.defining is not None,
+        SystemStatus.TRACE_MODE: controller.debugging.trace,
+        SystemStatus.STEP_MODE: controller.debugging.step,
         SystemStatus.COMMAND_ERROR: controller.faults.command_text is not None,
+        SystemStatus.BREAK_POINT_ACTIVE: interpreter.at_break_point,
+        SystemStatus.MONITORING_ON_CONDITION: controller.on_conditions.active,
         SystemStatus.PAUSE_ACTIVE: interpreter.paused,
         SystemStatus.WAIT_ACTIVE: wait is not None and wait.status_bit is SystemStatus.WAIT_ACTIVE,
+        SystemStatus.WAITING_FOR_DATA: wait is not None and wait.status_bit is SystemStatus.WAITING_FOR_DATA,
         SystemStatus.DWELL_IN_PROGRESS: wait is not None and wait.status_bit is SystemStatus.DWELL_IN_PROGRESS,
+        SystemStatus.LOADING_THUMBWHEEL_DATA: (
+            wait is not None and wait.status_bit is SystemStatus.LOADING_THUMBWHEEL_DATA
+        ),
+        SystemStatus.EXTERNAL_PROGRAM_SELECT: settings.integer("INSELP") != 0,
+        SystemStatus.WAITING_FOR_RP240: wait is not None and wait.status_bit is SystemStatus.WAITING_FOR_RP240,
         SystemStatus.RP240_CONNECTED: controller.machine.rp240.fitted,
     }
     return word_bits(sum(bit.mask for bit, on in conditions.items() if on), WORD)
@@ -58,23 +72,25 @@ def limit_inputs(controller: Controller) -> str:
 
 def inputs(controller: Controller) -> str:
     """IN: programmable inputs, then the triggers."""
-    count = controller.wiring.input_count
-    settings = controller.settings
-    levels, overrides = settings.bits("INLVL")[:count], settings.bits("INEN")[:count]
-    return controller.wiring.input_bits(active_levels=levels, overrides=overrides)
+    return controller.inputs.bits
 
 
 def other_inputs(controller: Controller) -> str:
-    """INO: joystick inputs (not wired: 0) and ENABLE."""
-    return word_bits(OtherInputs.ENABLE.mask if controller.wiring.enable_grounded else 0, OTHER_INPUT_BITS)
+    """INO: the joystick connector's digital inputs and ENABLE."""
+    contacts = {contact for contact in JOYSTICK_CONTACTS.values() if controller.inputs.joystick(contact)}
+    if controller.wiring.enable_grounded:
+        contacts.add(OtherInputs.ENABLE)
+    return word_bits(sum(contact.mask for contact in contacts), OTHER_INPUT_BITS)
 
 
 def outputs(controller: Controller) -> str:
-    """OUT: programmable outputs, then OUT-A and OUT-B; OUTEN digits 0 and 1 force an output."""
-    count = controller.machine.io.outputs + 2
-    settings = controller.settings
-    pairs = zip(settings.bits("OUT")[:count], settings.bits("OUTEN")[:count], strict=True)
-    return "".join(forced if forced in "01" else state for state, forced in pairs)
+    """OUT: programmable outputs, then OUT-A and OUT-B, as functions and overrides leave them."""
+    return controller.output_functions.bits()
+
+
+def user_status(controller: Controller) -> str:
+    """US."""
+    return controller.user_status.word
 
 
 def moving(controller: Controller) -> str:

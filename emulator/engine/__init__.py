@@ -21,6 +21,7 @@ from .profile import (
     profile_duration,
 )
 from .rates import RATES, RateTable, ServoRates, rates_for
+from .travel import Travel
 
 __all__ = [
     "ENABLE_MASK",
@@ -41,6 +42,7 @@ __all__ = [
     "State",
     "TargetOvershot",
     "TorqueDrive",
+    "Travel",
     "UnitFactors",
     "VelocityDrive",
     "Wire",

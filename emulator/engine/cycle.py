@@ -34,6 +34,7 @@ from .status import (
     axis_status,
     in_target_zone,
 )
+from .travel import CAPTURE_NONE, capture, operate_switches
 from .watches import check_watches
 
 S_PER_NS = 1e-9
@@ -127,6 +128,10 @@ def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, traj
     if trajectory_due and axis["profile_active"] != 0:
         follow_profile(axis, segments, now_ns)
     read_encoder(axis)
+    if axis["switches_fitted"] != 0:
+        operate_switches(unit, axis)
+    if axis["capture_mode"] != CAPTURE_NONE:
+        capture(unit, axis)
     servo_axis(unit, axis)
 
 

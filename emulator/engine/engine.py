@@ -15,18 +15,23 @@ from dataclasses import dataclass, field
 from .control_law import Gains, UnitFactors, gain_fields
 from .converter import DEFAULT_DAC_BITS, dac_fields
 from .events import MAX_AXES, Event, Relation, Signal, Wire, wire_mask
-from .layout import AXIS, UNIT, word_of
+from .layout import UNIT, word_of
 from .machine_code import Calls, OnBuild, load_kernel
 from .memory import Memory, write_fields
 from .plants import Plant, VelocityDrive
 from .profile import Segments, State, evaluate, profile_duration
 from .rates import NS_PER_S, ServoRates
-from .readings import ACTIVE, COMMANDED, ENABLED, FEEDBACK, NS_PER_MS, OFFSET, AxisReadings, axis_word
+from .readings import ACTIVE, COMMANDED, ENABLED, FEEDBACK, NS_PER_MS, OFFSET, axis_word
 from .status import CLEARED_BY_ENABLE
+from .terminals import Terminals
+from .travel import Capture, Travel, operate_switches
 from .watches import WATCH_SLOTS
 
 SHORT_RUN_SAMPLES = 40
 """Runs of fewer samples keep the interpreter lock: handing it over would cost more than the samples."""
+
+FIRST_LASTING_WATCH = WATCH_SLOTS - 2
+"""Value watches from this slot on outlive `clear_watches`: they belong to outputs on position, one an axis."""
 
 DEFAULT_POSITION_ERROR_LIMIT = 4000
 """SMPER at power-up, counts. Assumed, medium confidence."""
@@ -34,7 +39,7 @@ DEFAULT_POSITION_ERROR_LIMIT = 4000
 
 _TIME, _NEXT_SAMPLE, _SERVO = (word_of(UNIT, name) for name in ("time_ns", "next_sample_ns", "servo_ns"))
 _TO_TRAJECTORY, _TO_SYSTEM = (word_of(UNIT, name) for name in ("samples_to_trajectory", "trajectories_to_system"))
-_WIRES, _INPUTS, _FIRED = (word_of(UNIT, name) for name in ("wires", "inputs", "fired_watches"))
+_FIRED = word_of(UNIT, "fired_watches")
 _START, _SOURCE = axis_word("profile_start_ns"), axis_word("feedback_source")
 _ENCODER_SIGN, _OUTPUT_SIGN = axis_word("encoder_sign"), axis_word("output_sign")
 _LATCHED, _EXTRA, _STATUS = (axis_word(name) for name in ("latched_status", "extra_status", "status"))
@@ -63,9 +68,13 @@ class AxisHardware:
     encoder_phase: float = 0.0
     """Position of the count edges within a count, 0 to 1."""
     start_position_rev: float = 0.0
+    index_phase_rev: float = 0.0
+    """Where in each revolution the index (Z) pulse lies, 0 to 1."""
+    travel: Travel = field(default_factory=Travel)
+    """The switches that follow the shaft."""
 
 
-class Engine(AxisReadings):
+class Engine(Terminals):
     """The servo of one unit. Drives are off, wires open and gains those of power-up until set."""
 
     def __init__(
@@ -80,14 +89,11 @@ class Engine(AxisReadings):
     ) -> None:
         if not 1 <= len(axes) <= MAX_AXES:
             raise ValueError(f"a unit has 1 to {MAX_AXES} axes, not {len(axes)}")
-        self._memory = Memory(len(axes))
-        super().__init__(self._memory)
-        self._unit = self._memory.unit.ints
+        super().__init__(Memory(len(axes)))
         self._plants = [axis.plant for axis in axes]
         self._profiles: list[Segments] = [() for _ in axes]
         self._gains = [Gains() for _ in axes]
         self._factors = unit_factors or UnitFactors()
-        self._stale = True
         self._kernel = load_kernel(on_build)
         self._calls: Calls = self._kernel.bind(self._memory)
         write_fields(
@@ -115,15 +121,14 @@ class Engine(AxisReadings):
             hard_limit_enable=3,
             positive_limit_mask=wire_mask(Wire.POSITIVE_LIMIT, axis_index),
             negative_limit_mask=wire_mask(Wire.NEGATIVE_LIMIT, axis_index),
+            home_mask=wire_mask(Wire.HOME, axis_index),
+            home_active_level=1,
+            index_reading=(hardware.index_phase_rev * hardware.counts_per_rev + hardware.encoder_phase) // 1,
+            **hardware.travel.fields(),
         )
+        operate_switches(self._memory.units[0], self._memory.axes[axis_index])
         self.set_gains(axis_index, Gains())
         self.set_target_zone(axis_index, distance_counts=50, velocity_counts_s=hardware.counts_per_rev, timeout_ms=1000)
-
-    def _write(self, axis_index: int, **fields: float | None) -> None:
-        """Set those fields of an axis that are given."""
-        given = {name: value for name, value in fields.items() if value is not None}
-        write_fields(self._memory.axis[axis_index], AXIS, given)
-        self._stale = True
 
     def power_up(self) -> None:
         """Switch the electronics off and on: drives off, counters at 0, latched status gone; shafts, wires and time go
@@ -132,7 +137,7 @@ class Engine(AxisReadings):
             self.disable(axis_index)
             ints[_LATCHED] = ints[_EXTRA] = ints[_EVENTS] = 0
             ints[COMMANDED] = ints[OFFSET] = ints[FEEDBACK]
-            self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0)
+            self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0, capture_mode=Capture.NONE)
         self.clear_watches()
 
     # Time
@@ -261,6 +266,14 @@ class Engine(AxisReadings):
         position, velocity, acceleration = evaluate(self._profiles[axis_index], elapsed_s)
         return State(position - ints[OFFSET], velocity, acceleration)
 
+    def profile_target(self, axis_index: int) -> float | None:
+        """Reported counts at which the running profile ends; None for one that goes on for ever."""
+        segments = self._profiles[axis_index]
+        duration_s = profile_duration(segments)
+        if duration_s == float("inf"):
+            return None
+        return evaluate(segments, duration_s).position - self._ints[axis_index][OFFSET]
+
     # Settings
 
     def set_gains(self, axis_index: int, gains: Gains) -> None:
@@ -343,26 +356,6 @@ class Engine(AxisReadings):
             settling=0 if enable is not None and not enable else None,
         )
 
-    # Wires
-
-    @property
-    def wires(self) -> int:
-        """Electrical state of limits, homes, drive faults and ENABLE, bits of `wire_mask`; 1 = grounded."""
-        return self._unit[_WIRES]
-
-    def set_wires(self, bits: int) -> None:
-        """Set the electrical state of all wires."""
-        self._unit[_WIRES] = bits
-
-    @property
-    def inputs(self) -> int:
-        """Electrical state of the programmable inputs, bit 0 = input 1; 1 = grounded."""
-        return self._unit[_INPUTS]
-
-    def set_inputs(self, bits: int) -> None:
-        """Set the electrical state of all programmable inputs."""
-        self._unit[_INPUTS] = bits
-
     # Status, watches, events
 
     def latch_status(self, axis_index: int, mask: int) -> None:
@@ -410,11 +403,16 @@ class Engine(AxisReadings):
         self._memory.units["armed_watches"] = self._memory.watches["armed"].sum()
 
     def clear_watches(self) -> None:
-        """Disarm every status and value watch."""
-        self._memory.watches["armed"] = 0
-        self._memory.units["armed_watches"] = 0
+        """Disarm every status watch and the value watches below FIRST_LASTING_WATCH."""
+        self._memory.watches["armed"][:FIRST_LASTING_WATCH] = 0
+        self._memory.units["armed_watches"] = self._memory.watches["armed"].sum()
         self._memory.units["fired_watches"] = 0
         self._memory.axes["watch_mask"] = 0
+
+    def disarm_watch(self, slot: int) -> None:
+        """Disarm one value watch."""
+        self._memory.watches["armed"][slot] = 0
+        self._memory.units["armed_watches"] = self._memory.watches["armed"].sum()
 
     def fired_watches(self) -> int:
         """Slots that fired since last asked, bit = slot; reading clears them."""

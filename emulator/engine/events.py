@@ -17,6 +17,8 @@ EVENT_SETTLE_TIMEOUT = 32
 EVENT_STATUS = 64
 EVENT_VALUE = 128
 EVENT_WIRES = 256
+EVENT_HOME_EDGE = 512
+EVENT_INDEX = 1024
 
 
 class Event(IntFlag):
@@ -40,7 +42,11 @@ class Event(IntFlag):
     VALUE = EVENT_VALUE
     """A value watch came true."""
     WIRES = EVENT_WIRES
-    """`wires` or `inputs` differ from what was last reported."""
+    """`wires` or `inputs` differ from what was last reported, or a report was asked for."""
+    HOME_EDGE = EVENT_HOME_EDGE
+    """The home input changed as an armed capture waited for."""
+    INDEX = EVENT_INDEX
+    """The encoder passed an index pulse as an armed capture waited for."""
 
 
 class Signal(IntEnum):

@@ -22,6 +22,11 @@ VELOCITY, ACCELERATION = axis_word("commanded_velocity"), axis_word("commanded_a
 ACTUAL_VELOCITY, DAC = axis_word("actual_velocity"), axis_word("dac_v")
 TRUE_POSITION, TRUE_VELOCITY = axis_word("true_position"), axis_word("true_velocity")
 
+CAPTURED = axis_word("captured_counts")
+READING, INDEX_READING, COUNTS_PER_REV = (
+    axis_word(name) for name in ("encoder_reading", "index_reading", "counts_per_rev")
+)
+
 TERMS = {
     "P": axis_word("term_p"),
     "I": axis_word("term_i"),
@@ -99,6 +104,16 @@ class AxisReadings:
         """Terms of the control law in volts: P, I, V, VF, AF, offset, and their limited sum as output."""
         floats = self._floats[axis_index]
         return {name: floats[word] for name, word in TERMS.items()}
+
+    def captured_position(self, axis_index: int) -> int:
+        """Feedback position at the last captured home edge or index pulse, counts."""
+        ints = self._ints[axis_index]
+        return ints[CAPTURED] - ints[OFFSET]
+
+    def index_active(self, axis_index: int) -> bool:
+        """Whether the encoder stands on its index (Z) pulse, one count wide."""
+        ints = self._ints[axis_index]
+        return (ints[READING] - ints[INDEX_READING]) % self._floats[axis_index][COUNTS_PER_REV] == 0
 
     def true_position_rev(self, axis_index: int) -> float:
         """Where the shaft really is, rev."""

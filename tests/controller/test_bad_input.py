@@ -158,7 +158,7 @@ class TestTexts:
             ("V1.2.3", "INCORRECT DATA"),
             ("A" * 101, "MAXIMUM COMMAND LENGTH EXCEEDED"),
             ("V1" + " " * 300 + "0" * 99, "MAXIMUM COMMAND LENGTH EXCEEDED"),
-            ("#0", "COMMAND NOT IMPLEMENTED"),
+            ("#0", "INVALID CONDITIONS FOR COMMAND"),
         ],
     )
     def test_of_the_unit(self, sent: str, text: str) -> None:

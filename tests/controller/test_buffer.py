@@ -157,6 +157,7 @@ class TestWait:
         assert session.system_bit(14)
         session.read()
         session.set_wire("input.3", closed=True)
+        session.advance(0.0045)  # the debounce time, in whole system updates
         assert session.read() == OK
         assert not session.system_bit(14)
 

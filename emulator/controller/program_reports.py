@@ -1,0 +1,65 @@
+"""What can be asked about programs: TDIR, TMEM, TPROG, TLABEL, TEX."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from emulator.controller.dispatch import Lines, handles
+from emulator.controller.programs import name_of, require_access
+from protocol.command import Command
+from protocol.reply import ReplyLine
+
+if TYPE_CHECKING:
+    from emulator.controller.controller import Controller
+
+
+@handles("TPROG")
+def list_program(controller: Controller, command: Command) -> Lines:
+    """TPROG name: each stored command on its own line."""
+    require_access(controller)
+    return [ReplyLine("", line) for line in controller.programs.lines(name_of(command))] or [ReplyLine("", "")]
+
+
+@handles("TMEM")
+def memory_free(controller: Controller, command: Command) -> Lines:
+    """TMEM: the two memory lines (text assumed M)."""
+    return memory_lines(controller)
+
+
+@handles("TDIR")
+def directory(controller: Controller, command: Command) -> Lines:
+    """TDIR: the programs, then the memory lines (text assumed M)."""
+    programs = controller.programs
+    lines = [
+        ReplyLine("", f"{number} - {name} USES {programs.bytes_used(name)} BYTES")
+        for number, name in enumerate(programs.names, start=1)
+    ]
+    return [*(lines or [ReplyLine("", "NO PROGRAMS DEFINED")]), *memory_lines(controller)]
+
+
+@handles("TLABEL")
+def labels(controller: Controller, command: Command) -> Lines:
+    """TLABEL: every label and its program (text assumed L)."""
+    found = controller.programs.labels()
+    lines = [ReplyLine("", f"{label} DEFINED IN PROGRAM {name}") for label, name in found]
+    return lines or [ReplyLine("", "NO LABELS DEFINED")]
+
+
+@handles("TEX")
+def executing(controller: Controller, command: Command) -> Lines:
+    """TEX: what is being carried out (text assumed L)."""
+    found = controller.programs.executing
+    if found is None:
+        return [ReplyLine("", "PROGRAM NOT EXECUTING")]
+    return [ReplyLine("", f"PROGRAM={found[0]} COMMAND={found[1]}")]
+
+
+def memory_lines(controller: Controller) -> list[ReplyLine]:
+    """Free program bytes and compiled segments; percent rounded."""
+    memory = controller.machine.memory
+    free, capacity = controller.programs.bytes_free, controller.programs.capacity_bytes
+    segments = controller.settings.integer("MEMORY", 1) // memory.segment_bytes
+    return [
+        ReplyLine("", f"{free} OF {capacity} BYTES ({round(100 * free / capacity)}%) PROGRAM MEMORY REMAINING"),
+        ReplyLine("", f"{segments} OF {segments} SEGMENTS (100%) COMPILED MEMORY REMAINING"),
+    ]
