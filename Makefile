@@ -2,6 +2,7 @@
 #   make run     start the emulator with its defaults (ARGS="..." passes options on)
 #   make test    the default test suite (ARGS="..." passes options on)
 #   make bench   measure; prints a table and writes bench.json
+#   make fuzz    a million commands of random programs (ARGS="--commands N --seed N" for another run)
 #   make lint    ruff and mypy
 
 PYTHON ?= python3
@@ -10,7 +11,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 ARGS ?=
 
-.PHONY: run test bench lint clean
+.PHONY: run test bench fuzz lint clean
 
 run: $(STAMP)
 	@exec $(BIN)/python -m emulator serve $(ARGS)
@@ -20,6 +21,9 @@ test: $(STAMP)
 
 bench: $(STAMP)
 	@exec $(BIN)/python -m tests.bench $(ARGS)
+
+fuzz: $(STAMP)
+	@exec $(BIN)/python -m tests.fuzz $(ARGS)
 
 lint: $(STAMP)
 	$(BIN)/ruff check .

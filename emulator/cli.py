@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 DEFAULT_TCP = ("127.0.0.1", 6250)
 MAX_SPEED = 1e6
 BAUD_RANGE = range(110, 921_601)
+MAX_UNITS = 99
+"""Units on one line (6000 PG p.72)."""
 
 EXAMPLES = """\
 examples:
@@ -44,6 +46,8 @@ def main(arguments: Sequence[str] | None = None, *, build: Build | None = None) 
     if parsed.command is None:
         parser.print_help()
         return 0
+    if parsed.command == "commands":
+        return _show_commands(parsed)
     options = _serve_options(parsed)
     from emulator.server import serve
 
@@ -61,6 +65,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"oem6250 {__version__}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     _add_serve(commands)
+    _add_commands(commands)
     return parser
 
 
@@ -78,12 +83,40 @@ def _add_serve(commands: argparse._SubParsersAction[_Parser]) -> None:
     add("--no-tcp", action="store_true", help="do not listen on TCP")
     add("--pty", default="auto", metavar="PATH|auto|none", help="virtual serial port: where to put the link to it "
         "(default: auto, in your runtime directory)")  # fmt: skip
+    add("--units", type=_units, default=1, metavar="N", help="chain N like units, addressed 1 to N, on the one line; "
+        "ERRLVL1 first (default: 1)")  # fmt: skip
     add("--speed", type=_speed, default=1.0, metavar="1|N|max", help="virtual over real time (default: 1)")
     add("--line", type=_line, default=None, metavar="instant|BAUD", help="speed of the serial line (default: instant)")
     add("--state", default="none", metavar="FILE|none", help="file of the non-volatile memory (default: none)")
     add("--announce", metavar="-|FILE", help="once ready, write where to connect as one line of JSON")
     add("-v", dest="verbosity", action="count", default=0, help="log what happens and the traffic; -vv logs all")
     add("--version", action="version", version=f"oem6250 {__version__}")
+
+
+def _add_commands(commands: argparse._SubParsersAction[_Parser]) -> None:
+    show = commands.add_parser(
+        "commands",
+        help="what of the command language this unit does",
+        description="What of the command language this unit does, how that is known, and which transcripts show it.",
+        allow_abbrev=False,
+    )
+    show.add_argument("name", nargs="?", metavar="NAME", help="one command or operand, in full")
+    show.add_argument("--table", action="store_true", help="the whole conformance table, as Markdown")
+
+
+def _show_commands(parsed: argparse.Namespace) -> int:
+    from emulator import conformance
+
+    if parsed.name is not None:
+        found = conformance.find(parsed.name)
+        if found is None:
+            _parser().error(f"no command or operand is called {parsed.name!r}")
+        print(conformance.describe(found))
+        return 0
+    rows = conformance.table()
+    text = conformance.render(rows) if parsed.table else conformance.overview(rows)
+    sys.stdout.write(text)
+    return 0
 
 
 def _serve_options(parsed: argparse.Namespace) -> ServeOptions:
@@ -100,6 +133,7 @@ def _serve_options(parsed: argparse.Namespace) -> ServeOptions:
         state=None if parsed.state == "none" else parsed.state,
         announce=parsed.announce,
         verbosity=parsed.verbosity,
+        units=parsed.units,
     )
 
 
@@ -122,6 +156,12 @@ def _speed(text: str) -> float | None:
     if not 1 / MAX_SPEED <= speed <= MAX_SPEED:
         raise argparse.ArgumentTypeError(f"{text!r} is not a positive number (at most {MAX_SPEED:.0f}) or max")
     return speed
+
+
+def _units(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= MAX_UNITS):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of units from 1 to {MAX_UNITS}")
+    return int(text)
 
 
 def _line(text: str) -> int | None:

@@ -23,3 +23,5 @@ class ServeOptions:
     announce: str | None = None
     """`-` or a file for the line of JSON."""
     verbosity: int = 0
+    units: int = 1
+    """Units in the daisy chain on the one line; 1 is a unit by itself."""

@@ -54,16 +54,17 @@ def serve(options: ServeOptions, build: Build | None = None) -> int:
 
 
 def build_controllers(options: ServeOptions) -> Sequence[ControllerLike]:
-    """The machine of the options, as the controllers of its units."""
-    from emulator.emulator import Emulator
+    """The machine of the options, or a chain of several like it on the one line."""
+    from emulator.chain import build_chain
     from emulator.machine import Machine, MachineError
 
     try:
         machine = Machine.load(Path(options.machine)) if options.machine else Machine.default()
     except MachineError as error:
         raise UserError(str(error)) from None
-    emulator = Emulator(machine, on_build=_say)
-    return [unit.controller for unit in emulator.units]
+    chain = build_chain(machine, options.units, on_build=_say)
+    chain.power_up()
+    return [chain if options.units > 1 else chain.controllers[0]]
 
 
 class Server:

@@ -21,6 +21,7 @@ GROUPS = {
     "start": "start",
     "kernel": "kernel",
     "controller": "controller",
+    "interpreter": "interpreter",
     "round-trip": "round_trip",
     "pacing": "pacing",
     "staleness": "staleness",
