@@ -10,6 +10,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 ARGS ?=
+JOBS ?= 2
 
 .PHONY: run test bench fuzz lint clean
 
@@ -17,7 +18,7 @@ run: $(STAMP)
 	@exec $(BIN)/python -m emulator serve $(ARGS)
 
 test: $(STAMP)
-	@exec $(BIN)/python -m pytest $(ARGS)
+	@exec $(BIN)/python -m pytest -n $(JOBS) $(ARGS)
 
 bench: $(STAMP)
 	@exec $(BIN)/python -m tests.bench $(ARGS)

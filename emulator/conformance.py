@@ -10,7 +10,7 @@ a row is read from the transcripts.  So the table cannot promise what the code d
 from __future__ import annotations
 
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -22,7 +22,8 @@ from protocol.catalogue import CommandRow
 from protocol.command import Command, parse_command
 from protocol.errors import CommandError
 
-State = Literal["implemented", "absent"]
+State = Literal["implemented", "stored", "absent"]
+"""``stored``: set and reported like the unit's, without the effect that needs a part not built yet."""
 
 TRANSCRIPTS: Final = Path(__file__).parents[1] / "tests" / "transcripts"
 """Where the transcripts are in a source tree; an installed package has none."""
@@ -39,13 +40,25 @@ ABSENT_GROUPS: Final[Mapping[str, str]] = {
 """Groups of which absent rows have one reason."""
 
 ABSENT_ROWS: Final[Mapping[str, str]] = {
-    **dict.fromkeys(("ANI", "PANI"), "the ANI option is not fitted"),
     "TRANS": "translation mode needs the computer bus of other products; only its default is accepted",
     **dict.fromkeys(("GOL", "GOWHEN", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
     **dict.fromkeys(("PMAS", "PSLV", "PSHF", "NMCY", "VMAS", "FS"), _MOTION),
     **dict.fromkeys(("TPCA", "TPCC", "TPCE", "TPMAS", "TPSLV", "TPSHF", "TNMCY", "TVMAS", "TFS", "TFSF"), _MOTION),
 }
 """Absent rows of other groups, each with its reason."""
+
+_LINE: Final = "acts with the timed serial line or a second port"
+_DITHER: Final = "dither comes with the servo work"
+
+STORED_ROWS: Final[Mapping[str, str]] = {
+    **dict.fromkeys(("VF", "PA", "PAA", "PAD", "PADA", "PV", "PSCLA", "PSCLV", "PSCLD", "SCLMAS"), _MOTION),
+    **dict.fromkeys(("XONOFF", "LOCK", "DRPCHK"), _LINE),
+    **dict.fromkeys(("SDTAMP", "SDTFR"), _DITHER),
+    **dict.fromkeys(("COMEXK", "FOLK"), "stores only: its existence is not confirmed"),
+    "ANIPOL": "the ANI option is not fitted",
+    "TIMINT": "its alarm goes to the computer bus of other products",
+}
+"""Settings outside the motion groups that only store and report, each with the reason."""
 
 _REFUSED: Final = re.compile(rb"COMMAND NOT IMPLEMENTED|UNDEFINED LABEL|INVALID COMMAND|INCORRECT DATA")
 
@@ -117,7 +130,11 @@ def _state(row: CommandRow) -> tuple[State, str]:
         return "absent", _OTHER_PRODUCT
     in_expressions = row.kind in ("operator", "operand")
     there = example_of(row) not in refused_examples() if in_expressions else _carried_out(row)
-    return ("implemented", "") if there else ("absent", _reason(row))
+    if not there:
+        return "absent", _reason(row)
+    if row.name in STORED_ROWS or (row.group in ABSENT_GROUPS and row.kind == "setting"):
+        return "stored", STORED_ROWS.get(row.name) or ABSENT_GROUPS[row.group]
+    return "implemented", ""
 
 
 def _reason(row: CommandRow) -> str:
@@ -287,13 +304,14 @@ SHOWN: Final = 4
 def render(rows: Iterable[Conformance]) -> str:
     """The table as Markdown."""
     listed = list(rows)
-    done = sum(each.state == "implemented" for each in listed)
+    count = Counter(each.state for each in listed)
     lines = [
         "# Conformance",
         "",
         "Made by `oem6250 commands --table > docs/conformance.md`; do not edit.",
         "",
-        f"{len(listed)} rows of the command catalogue: {done} implemented, {len(listed) - done} answered as absent.",
+        f"{len(listed)} rows of the command catalogue: {count['implemented']} implemented, {count['stored']} stored "
+        f"and reported without effect, {count['absent']} answered as absent.",
         "",
         "| command | what | state | source | confidence | transcripts |",
         "| --- | --- | --- | --- | --- | --- |",

@@ -15,6 +15,7 @@ from protocol.command import Command
 from protocol.condition import Operand
 from protocol.errors import INCORRECT_DATA, CommandError, invalid_data_field
 from protocol.fields import as_decimal
+from protocol.numbers import format_variable
 from protocol.reply import ReplyLine
 
 if TYPE_CHECKING:
@@ -111,7 +112,7 @@ def variable_limits(controller: Controller, command: Command) -> Lines:
     limits = controller.on_conditions.limits
     if not command.argument:
         low, high = limits[command.name]
-        return [ReplyLine(command.name, f"{_signed(low)},{_signed(high)}")]
+        return [ReplyLine(command.name, f"{format_variable(low)},{format_variable(high)}")]
     fields = command.argument.split(",")
     if len(fields) > len(limits[command.name]):
         raise CommandError(INCORRECT_DATA)
@@ -131,11 +132,3 @@ def _number(text: str, *, field: int) -> Decimal:
     if abs(number) > LARGEST:
         raise invalid_data_field(field)
     return number
-
-
-def _signed(number: Decimal) -> str:
-    """As variables are reported: sign, at least one decimal, no other trailing zeros."""
-    text = format(number, "+f")
-    return (
-        text.rstrip("0") + "0" if text.rstrip("0").endswith(".") else text.rstrip("0") if "." in text else text + ".0"
-    )

@@ -216,3 +216,8 @@ def test_rates_must_divide(values: dict[str, int], said: str) -> None:
 def test_a_machine_cannot_be_changed() -> None:
     with pytest.raises(AttributeError):
         Machine.default().bare = True  # type: ignore[misc]
+
+
+def test_the_analog_feedback_option_is_refused_until_it_is_there() -> None:
+    with pytest.raises(MachineError, match=r"options\.ani: found true; allowed: false"):
+        Machine.parse("[options]\nani = true\n")
