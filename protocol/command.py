@@ -47,7 +47,8 @@ FieldValue = Decimal | Direction | VariableReference | None
 class Command:
     """A command that can be executed: ``row`` None means a program name (``name``).
 
-    ``text`` is the normalised form without unit address and ``!`` (what a program stores, TRACE shows, TCMDER reports);
+    ``text`` is the normalised form without unit address and ``!`` (what a program stores, TPROG and TRACE show), with a
+    blank in front of a name;
     ``argument`` the field text; ``values`` the comma fields of numeric commands; ``mask`` the digits of packed binary
     fields; ``substituted`` says that a variable stands for one of these; ``bit`` and ``bit_value`` the parts of ``.n``
     and ``.n-v``; ``spelled`` the name as written, which differs from ``name`` for an alias.
@@ -245,6 +246,8 @@ def _build(
         values = tuple(_read_field(field) for field in argument.split(",")) if argument else ()
     elif row is not None and row.name in ("INEN", "OUTEN"):
         mask = argument.replace("_", "")
+    if field_type == "name" and argument and spelled not in _LABEL_COMMANDS:
+        text = f"{text.removesuffix(argument)} {argument}"
     return Command(
         text=text,
         name=row.name if row is not None else spelled,

@@ -60,7 +60,13 @@ class TestText:
         define(session, "ONE", *commands)
         define(session, "TWO", *stored(session, "ONE"))
         assert stored(session, "ONE") == stored(session, "TWO")
-        assert stored(session, "ONE") == [command.upper().replace(" ", "") for command in commands]
+        printed = [command.replace(" ", "") for command in stored(session, "ONE")]
+        assert printed == [command.upper().replace(" ", "") for command in commands]
+
+    def test_a_name_keeps_its_distance(self) -> None:
+        session = Session()
+        define(session, "ONE", "gosub   two", "GOTOAGAIN")
+        assert stored(session, "ONE") == ["GOSUB TWO", "GOTO AGAIN"]
 
     def test_memory_is_given_back(self) -> None:
         session = Session()
