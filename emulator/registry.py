@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from emulator.controller import Controller
 from emulator.controller import words as status
-from emulator.controller.panel_commands import press, release
-from emulator.controller.thumbwheel_bank import dial
+from emulator.controller.wires.panel_commands import press, release
+from emulator.controller.wires.thumbwheel_bank import dial
 
 Value = float | int | bool | str
 

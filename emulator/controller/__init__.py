@@ -1,78 +1,38 @@
-"""One OEM6250: interpreter, programs, settings, motion commands, faults, reports.  A controller knows nothing of
-ports."""
+"""One OEM6250: interpreter, settings, faults and reports here, the rest in folders named for what they do.
 
-from emulator.controller import (
+`programs` stores and runs programs, `variables` holds what they reckon with, `wires` is the terminals, `motion` moves
+the axes.  A controller knows nothing of ports.
+"""
+
+from emulator.controller import communications, faults, reports, timing
+from emulator.controller.controller import Controller
+from emulator.controller.motion import gain_sets, go, homing, jogging, joystick, limits, servo, stopping
+from emulator.controller.output import Output
+from emulator.controller.programs import debugging, flow, listings, on_conditions, program_select
+from emulator.controller.programs import store as program_store
+from emulator.controller.variables import data_programs, reading, timers, writing
+from emulator.controller.variables import store as variable_store
+from emulator.controller.wires import (
     analog,
-    communications,
-    data_programs,
-    debugging,
-    faults,
-    flow,
-    gain_sets,
-    homing,
     input_effects,
     input_functions,
     inputs,
-    jogging,
-    joystick,
-    limits,
-    motion,
-    on_conditions,
     output_functions,
     output_on_position,
     outputs,
     panel_commands,
-    program_reports,
-    program_select,
-    programs,
-    reading,
-    reports,
-    servo,
-    stopping,
     thumbwheels,
-    timers,
-    timing,
     user_status,
-    variables,
-    writing,
 )
-from emulator.controller.controller import Controller
-from emulator.controller.output import Output
 
-__all__ = [
-    "Controller",
-    "Output",
-    "analog",
-    "communications",
-    "data_programs",
-    "debugging",
-    "faults",
-    "flow",
-    "gain_sets",
-    "homing",
-    "input_effects",
-    "input_functions",
-    "inputs",
-    "jogging",
-    "joystick",
-    "limits",
-    "motion",
-    "on_conditions",
-    "output_functions",
-    "output_on_position",
-    "outputs",
-    "panel_commands",
-    "program_reports",
-    "program_select",
-    "programs",
-    "reading",
-    "reports",
-    "servo",
-    "stopping",
-    "thumbwheels",
-    "timers",
-    "timing",
-    "user_status",
-    "variables",
-    "writing",
-]
+COMMAND_MODULES = (
+    *(communications, faults, reports, timing),
+    *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
+    *(debugging, flow, listings, on_conditions, program_select, program_store),
+    *(data_programs, reading, timers, variable_store, writing),
+    *(analog, input_effects, input_functions, inputs, output_functions, output_on_position, outputs),
+    *(panel_commands, thumbwheels, user_status),
+)
+"""The modules whose functions carry out commands; importing them registers the functions with `dispatch`."""
+
+__all__ = ["COMMAND_MODULES", "Controller", "Output"]

@@ -11,36 +11,36 @@ from dataclasses import replace
 
 from emulator.controller import dispatch, words
 from emulator.controller.alarms import Alarms
-from emulator.controller.analog import Analog
 from emulator.controller.build import build_engine, build_settings, rates_in_force
 from emulator.controller.communications import answers_to, framing_in_force, is_neighbours_reply
-from emulator.controller.data_programs import DataPrograms
-from emulator.controller.debugging import Debugging
 from emulator.controller.dispatch import handles
 from emulator.controller.faults import Faults
-from emulator.controller.gain_sets import AxisGains
-from emulator.controller.homing import Homing
-from emulator.controller.input_functions import InputFunctions
-from emulator.controller.inputs import Inputs
 from emulator.controller.interpreter import Interpreter
-from emulator.controller.jogging import Jogging
-from emulator.controller.joystick import Joystick
-from emulator.controller.on_conditions import OnConditions
-from emulator.controller.operands import Operands
+from emulator.controller.motion.gain_sets import AxisGains
+from emulator.controller.motion.homing import Homing
+from emulator.controller.motion.jogging import Jogging
+from emulator.controller.motion.joystick import Joystick
+from emulator.controller.motion.pausing import Pausing
+from emulator.controller.motion.stopping import end_of_travel, stop_axes
 from emulator.controller.output import Output, Transmitter
-from emulator.controller.output_functions import OutputFunctions
-from emulator.controller.output_on_position import OutputOnPosition
-from emulator.controller.panel import OperatorPanel
-from emulator.controller.panel_commands import DEFAULT_PASSWORD
-from emulator.controller.pausing import Pausing
-from emulator.controller.program_select import ProgramSelect, security_locked
-from emulator.controller.programs import Programs
-from emulator.controller.stopping import end_of_travel, stop_axes
-from emulator.controller.thumbwheels import Thumbwheels
-from emulator.controller.timers import Timer
-from emulator.controller.user_status import UserStatus
-from emulator.controller.variables import Variables
-from emulator.controller.wiring import Wiring
+from emulator.controller.programs.debugging import Debugging
+from emulator.controller.programs.on_conditions import OnConditions
+from emulator.controller.programs.program_select import ProgramSelect, security_locked
+from emulator.controller.programs.store import Programs
+from emulator.controller.variables.data_programs import DataPrograms
+from emulator.controller.variables.operands import Operands
+from emulator.controller.variables.store import Variables
+from emulator.controller.variables.timers import Timer
+from emulator.controller.wires.analog import Analog
+from emulator.controller.wires.input_functions import InputFunctions
+from emulator.controller.wires.inputs import Inputs
+from emulator.controller.wires.output_functions import OutputFunctions
+from emulator.controller.wires.output_on_position import OutputOnPosition
+from emulator.controller.wires.panel import OperatorPanel
+from emulator.controller.wires.panel_commands import DEFAULT_PASSWORD
+from emulator.controller.wires.thumbwheels import Thumbwheels
+from emulator.controller.wires.user_status import UserStatus
+from emulator.controller.wires.wiring import Wiring
 from emulator.engine import Event
 from emulator.engine.machine_code import OnBuild
 from emulator.machine import Machine

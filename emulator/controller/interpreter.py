@@ -25,11 +25,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from emulator.controller import dispatch
-from emulator.controller.execution import Cause
 from emulator.controller.faults import branch_abandons
-from emulator.controller.preparation import OPENERS, Prepared
-from emulator.controller.runner import Runner
-from emulator.controller.typed_block import TypedBlock
+from emulator.controller.programs.execution import Cause
+from emulator.controller.programs.preparation import OPENERS, Prepared
+from emulator.controller.programs.runner import Runner
+from emulator.controller.programs.typed_block import TypedBlock
 from emulator.controller.waits import NEVER, ConditionWait, Held, MotionWait, UpdateWait, Wait
 from protocol.command import Command, addressed_unit, is_immediate_text, parse_command
 from protocol.errors import (

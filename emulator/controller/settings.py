@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 
-from emulator.controller.ramps import FOLLOWED, followed_setting
+from emulator.controller.motion.ramps import FOLLOWED, followed_setting
 from emulator.controller.scaling import (
     DISTANCE_SCALES,
     ENCODER_REVOLUTIONS,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from emulator.controller.wiring import JOYSTICK_CONTACTS
+from emulator.controller.wires.wiring import JOYSTICK_CONTACTS
 from protocol.reply import word_bits
 from protocol.status import ExtendedAxisStatus, OtherInputs, SystemStatus
 

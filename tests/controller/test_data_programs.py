@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator.controller.data_statements import is_data_program, numbers_of, statement_of, statements_of
+from emulator.controller.variables.data_statements import is_data_program, numbers_of, statement_of, statements_of
 from tests.controller.session import Session
 
 NUMBERS = st.decimals(-999999, 999999, places=3)

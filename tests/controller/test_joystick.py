@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emulator.controller.joystick import deflection
+from emulator.controller.motion.joystick import deflection
 from tests.controller.session import Session
 
 COUNTS = 4000

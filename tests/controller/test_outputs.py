@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator.controller.analog import code_of
-from emulator.controller.program_select import line_weight
-from emulator.controller.thumbwheels import read_digits
+from emulator.controller.programs.program_select import line_weight
+from emulator.controller.wires.analog import code_of
+from emulator.controller.wires.thumbwheels import read_digits
 from tests.controller.session import Session
 
 

@@ -6,7 +6,7 @@ from decimal import Decimal
 
 import pytest
 
-from emulator.controller.panel_commands import field_text
+from emulator.controller.wires.panel_commands import field_text
 from tests.controller.session import OK, Session
 
 

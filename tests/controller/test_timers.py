@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from emulator.controller.timers import LARGEST_MS, Timer
+from emulator.controller.variables.timers import LARGEST_MS, Timer
 from emulator.controller.waits import NEVER
 from tests.controller.session import MS, OK, SYSTEM_NS, Session
 

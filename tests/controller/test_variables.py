@@ -6,7 +6,7 @@ from decimal import Decimal
 
 import pytest
 
-from emulator.controller.variables import Variables
+from emulator.controller.variables.store import Variables
 from tests.controller.session import OK, Session
 
 

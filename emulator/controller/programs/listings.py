@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.programs import name_of, require_access
+from emulator.controller.programs.store import name_of, require_access
 from protocol.command import Command
 from protocol.reply import ReplyLine
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from emulator.controller.by_hand import in_mode, run_at, set_mode
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.input_functions import InputFunction, acts_on
-from emulator.controller.motion import check_s_curve
+from emulator.controller.motion.by_hand import in_mode, run_at, set_mode
+from emulator.controller.motion.go import check_s_curve
 from emulator.controller.waits import MotionWait
+from emulator.controller.wires.input_functions import InputFunction, acts_on
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, MOTION_IN_PROGRESS, CommandError
 from protocol.fields import place_mask

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.input_functions import axis_of, check_letter
+from emulator.controller.wires.input_functions import axis_of, check_letter
 from protocol.command import Command
 from protocol.errors import ALREADY_DEFINED_FOR_THUMBWHEELS, INCORRECT_DATA, INVALID_DATA, CommandError
 from protocol.reply import ReplyLine

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.motion import named_axes, stop_segments
+from emulator.controller.motion.go import named_axes, stop_segments
 from protocol.command import Command
 from protocol.status import ErrorStatus
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from emulator.controller.motion import ramps
-from emulator.controller.stopping import stop_axes
+from emulator.controller.motion.go import ramps
+from emulator.controller.motion.stopping import stop_axes
 from emulator.engine import TargetOvershot, plan_continuous, plan_preset
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from emulator.controller import dispatch
-from emulator.controller.debugging import trace_line
-from emulator.controller.execution import Frame
-from emulator.controller.flow import FLOW
-from emulator.controller.preparation import Instruction
+from emulator.controller.programs.debugging import trace_line
+from emulator.controller.programs.execution import Frame
+from emulator.controller.programs.flow import FLOW
+from emulator.controller.programs.preparation import Instruction
 from protocol.errors import CommandError
 
 if TYPE_CHECKING:

@@ -10,7 +10,9 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, carry_out, handles
-from emulator.controller.panel import (
+from emulator.controller.variables.store import Store, supplies
+from emulator.controller.waits import NEVER
+from emulator.controller.wires.panel import (
     ARROW_KEYS,
     COLUMNS,
     CONTINUE,
@@ -21,8 +23,6 @@ from emulator.controller.panel import (
     PAUSE,
     STOP,
 )
-from emulator.controller.variables import Store, supplies
-from emulator.controller.waits import NEVER
 from protocol.command import Command, parse_command
 from protocol.errors import INCORRECT_DATA, INVALID_DATA, CommandError, invalid_data_field
 from protocol.expression import Operand

@@ -10,8 +10,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.execution import ENDLESS, Execution, Frame
-from emulator.controller.preparation import CLOSERS, NO_PARTNER, OPENERS, Instruction, Prepared
+from emulator.controller.programs.execution import ENDLESS, Execution, Frame
+from emulator.controller.programs.preparation import CLOSERS, NO_PARTNER, OPENERS, Instruction, Prepared
 from protocol.command import Command
 from protocol.condition import evaluate
 from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, UNDEFINED_LABEL, CommandError

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from emulator.controller.faults import clear_without_cause
-from emulator.controller.limits import limit_in_the_way
-from emulator.controller.motion import CLEARED_BY_LEGAL_GO, ramps
+from emulator.controller.motion.go import CLEARED_BY_LEGAL_GO, ramps
+from emulator.controller.motion.limits import limit_in_the_way
 from emulator.engine import plan_continuous
 from protocol.status import ErrorStatus
 

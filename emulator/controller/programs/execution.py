@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from emulator.controller.preparation import Code, Prepared
+from emulator.controller.programs.preparation import Code, Prepared
 from emulator.controller.waits import Held
 from protocol.errors import NEST_LEVEL_TOO_DEEP, CommandError
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles, require_rest
 from emulator.controller.faults import CLEARED_BY_GO, clear_without_cause
-from emulator.controller.limits import limit_in_the_way
+from emulator.controller.motion.limits import limit_in_the_way
 from emulator.controller.waits import MotionWait
 from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
 from protocol.command import Command

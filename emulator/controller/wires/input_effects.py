@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from emulator.controller.input_functions import InputFunction, acts_on
-from emulator.controller.stopping import kill_everything, stop_axes, stop_everything
+from emulator.controller.motion.stopping import kill_everything, stop_axes, stop_everything
+from emulator.controller.wires.input_functions import InputFunction, acts_on
 from protocol.status import ErrorStatus
 
 if TYPE_CHECKING:

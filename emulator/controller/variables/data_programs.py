@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING, NamedTuple
 
-from emulator.controller.data_statements import (
+from emulator.controller.dispatch import Lines, handles
+from emulator.controller.variables.data_statements import (
     BYTES_PER_STATEMENT,
     MAX_DATA_PROGRAMS,
     numbers_of,
@@ -18,7 +19,6 @@ from emulator.controller.data_statements import (
     statement_of,
     statements_of,
 )
-from emulator.controller.dispatch import Lines, handles
 from protocol.command import Command, parse_command
 from protocol.errors import (
     INCORRECT_DATA,

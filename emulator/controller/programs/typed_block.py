@@ -5,8 +5,8 @@ Each command gets its prompt as it is collected, the last one when the block has
 
 from __future__ import annotations
 
-from emulator.controller.preparation import CLOSERS, OPENERS, Prepared, prepare
-from emulator.controller.programs import check_storable
+from emulator.controller.programs.preparation import CLOSERS, OPENERS, Prepared, prepare
+from emulator.controller.programs.store import check_storable
 from protocol.command import Command
 from protocol.errors import INSUFFICIENT_MEMORY, INVALID_CONDITIONS, CommandError
 

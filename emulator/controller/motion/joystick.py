@@ -14,11 +14,11 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
-from emulator.controller.by_hand import in_mode, run_at, set_mode
 from emulator.controller.dispatch import Lines, applies, handles
-from emulator.controller.input_functions import InputFunction, acts_on
-from emulator.controller.motion import check_ready, check_s_curve
+from emulator.controller.motion.by_hand import in_mode, run_at, set_mode
+from emulator.controller.motion.go import check_ready, check_s_curve
 from emulator.controller.scaling import Quantity
+from emulator.controller.wires.input_functions import InputFunction, acts_on
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, MOTION_IN_PROGRESS, CommandError
 from protocol.fields import place_bits, place_mask

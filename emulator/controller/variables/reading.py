@@ -8,7 +8,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.variables import Store, supplies
+from emulator.controller.variables.store import Store, supplies
 from emulator.controller.waits import NEVER
 from protocol.arithmetic import ENTERED_PLACES, LARGEST
 from protocol.command import Command

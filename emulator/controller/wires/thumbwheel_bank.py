@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from emulator.controller.thumbwheels import BITS_PER_DIGIT, MOST_DIGITS, SETS
+from emulator.controller.wires.thumbwheels import BITS_PER_DIGIT, MOST_DIGITS, SETS
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller

@@ -15,7 +15,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING, cast
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.variables import Store, supplies
+from emulator.controller.variables.store import Store, supplies
 from protocol.command import Command
 from protocol.errors import (
     DEFINED_WITH_ANOTHER_TW,
@@ -31,7 +31,7 @@ from protocol.status import SystemStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
-    from emulator.controller.thumbwheel_bank import ThumbwheelBank
+    from emulator.controller.wires.thumbwheel_bank import ThumbwheelBank
 
 SETS = 4
 BITS_PER_DIGIT = 4

@@ -10,10 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from emulator.controller.data_statements import BYTES_PER_STATEMENT, check_place
 from emulator.controller.dispatch import Lines, applies, handles, is_implemented, store_setting
-from emulator.controller.execution import Execution
-from emulator.controller.preparation import Prepared, condition_of, prepare
+from emulator.controller.programs.execution import Execution
+from emulator.controller.programs.preparation import Prepared, condition_of, prepare
+from emulator.controller.variables.data_statements import BYTES_PER_STATEMENT, check_place
 from protocol.command import Command, check_program_name, is_command_name
 from protocol.errors import (
     COMMAND_NOT_ALLOWED_IN_PROGRAM,

@@ -10,8 +10,8 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
+from emulator.controller.motion.servo import GAIN_COMMANDS, apply_gains, apply_output, apply_position_error_limit
 from emulator.controller.scaling import Quantity
-from emulator.controller.servo import GAIN_COMMANDS, apply_gains, apply_output, apply_position_error_limit
 from protocol.catalogue import commands
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, CommandError

@@ -12,9 +12,9 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller import words
-from emulator.controller.data_statements import MAX_DATA_PROGRAMS
 from emulator.controller.readings import READINGS, SETTING_OPERANDS, VOLT_PLACES, reading_in_user_units
-from emulator.controller.variables import WAITED_FOR
+from emulator.controller.variables.data_statements import MAX_DATA_PROGRAMS
+from emulator.controller.variables.store import WAITED_FOR
 from emulator.controller.waits import NEVER
 from emulator.engine import Signal
 from emulator.engine.engine import FIRST_LASTING_WATCH

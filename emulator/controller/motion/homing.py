@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles
 from emulator.controller.faults import CLEARED_BY_GO, clear_without_cause
-from emulator.controller.limits import limit_in_the_way
-from emulator.controller.motion import CLEARED_BY_LEGAL_GO, check_ready, check_s_curve, ramps, stop_segments
-from emulator.controller.stopping import end_of_travel
+from emulator.controller.motion.go import CLEARED_BY_LEGAL_GO, check_ready, check_s_curve, ramps, stop_segments
+from emulator.controller.motion.limits import limit_in_the_way
+from emulator.controller.motion.stopping import end_of_travel
 from emulator.controller.waits import MotionWait
 from emulator.engine import Event, Segments, State, TargetOvershot, plan_continuous, plan_preset, plan_stop
 from protocol.command import Command

@@ -1,0 +1,1 @@
+"""Motion: GO, stops, limits, drives and gains, homing, jogging, joystick."""

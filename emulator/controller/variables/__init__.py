@@ -1,0 +1,1 @@
+"""Variables, data and timers, the operands of expressions, and the commands that read and write them."""

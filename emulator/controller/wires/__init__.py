@@ -1,0 +1,1 @@
+"""The terminals: inputs and what they do, outputs and what drives them, analogue channels, operator panel."""
