@@ -151,8 +151,8 @@ def test_an_index_pulse_is_captured_to_the_count(phase: float, speed: float, dir
     engine.capture_index(0)
     run_at(engine, direction * speed)
     until(engine, Event.INDEX)
-    pulse = phase if direction > 0 else phase - 1.0
-    assert engine.captured_position(0) == math.floor(pulse * COUNTS)
+    pulse = math.floor(phase * COUNTS)
+    assert engine.captured_position(0) == (pulse if direction > 0 else pulse - COUNTS)
 
 
 def test_an_index_pulse_outside_the_home_switch_is_passed_over() -> None:
