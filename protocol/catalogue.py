@@ -1,6 +1,7 @@
 """The command catalogue: what the 6000 language of the OEM6250 consists of, as data.
 
-One row a command, kept as TOML under ``catalogue_data/`` (a file a group), read once into frozen structures.
+One row a command, kept as TOML under ``catalogue_data/`` (a file a group), packed by ``protocol.pack`` and read once
+into frozen structures.
 Parsing, validation, report formats, help and the fidelity ledger are all made from these rows, so a command that
 only stores and reports a setting needs a row here and no code anywhere.  Each row carries its provenance:
 ``source`` names the manual and page or the host software it was seen in, or says "assumed".
@@ -8,7 +9,6 @@ only stores and reports a setting needs a row here and no code anywhere.  Each r
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
@@ -133,25 +133,38 @@ class StatusWordRow(msgspec.Struct, frozen=True, kw_only=True):
     bit: list[BitRow] = []
 
 
-def _read(file_name: str) -> dict[str, object]:
-    return tomllib.loads(files(__package__).joinpath("catalogue_data", file_name).read_text("utf-8"))
+class _OtherProducts(msgspec.Struct):
+    names: list[OtherProductNames]
 
 
-NOT_COMMAND_FILES = frozenset({"status_words.toml", "error_messages.toml", "other_products.toml", "io_functions.toml"})
+class _ErrorMessages(msgspec.Struct):
+    error: list[ErrorRow]
+
+
+class _StatusWords(msgspec.Struct):
+    word: list[StatusWordRow]
+
+
+class _Packed(msgspec.Struct):
+    """The file made by ``protocol.pack``."""
+
+    commands: list[CommandRow]
+    other_products: _OtherProducts
+    error_messages: _ErrorMessages
+    status_words: _StatusWords
+    io_functions: dict[str, list[IoFunctionRow]]
+
+
+@cache
+def _packed() -> _Packed:
+    data = files(__package__).joinpath("catalogue_data", "packed.json").read_bytes()
+    return msgspec.json.decode(data, type=_Packed)
 
 
 @cache
 def rows() -> tuple[CommandRow, ...]:
-    """Every row of the catalogue, in file order (about 380)."""
-    found: list[CommandRow] = []
-    folder = files(__package__).joinpath("catalogue_data")
-    for entry in sorted(folder.iterdir(), key=lambda item: item.name):
-        if not entry.name.endswith(".toml") or entry.name in NOT_COMMAND_FILES:
-            continue
-        group = entry.name.removesuffix(".toml")
-        for row in msgspec.convert(_read(entry.name)["command"], list[CommandRow]):
-            found.append(msgspec.structs.replace(row, group=group))
-    return tuple(found)
+    """Every row of the catalogue, by group and in file order (about 380)."""
+    return tuple(_packed().commands)
 
 
 @cache
@@ -181,7 +194,7 @@ def lookup(name: str) -> CommandRow | None:
 @cache
 def other_product_names() -> Mapping[str, str]:
     """Names of other products -> the error text this unit answers."""
-    groups = msgspec.convert(_read("other_products.toml")["names"], list[OtherProductNames])
+    groups = _packed().other_products.names
     table = {name: group.error for group in groups for name in group.commands}
     table.update(
         {row.name: "COMMAND NOT IMPLEMENTED" for row in rows() if not row.applies_to_oem6250 and row.name not in table}
@@ -192,18 +205,16 @@ def other_product_names() -> Mapping[str, str]:
 @cache
 def error_rows() -> tuple[ErrorRow, ...]:
     """The unit's error texts."""
-    return tuple(msgspec.convert(_read("error_messages.toml")["error"], list[ErrorRow]))
+    return tuple(_packed().error_messages.error)
 
 
 @cache
 def status_words() -> Mapping[str, StatusWordRow]:
     """The status words by operand name (AS, SS, ER, ...)."""
-    words = msgspec.convert(_read("status_words.toml")["word"], list[StatusWordRow])
-    return MappingProxyType({word.name: word for word in words})
+    return MappingProxyType({word.name: word for word in _packed().status_words.word})
 
 
 @cache
 def io_functions(kind: Literal["infnc", "outfnc"]) -> Mapping[str, IoFunctionRow]:
     """The function letters of INFNC or OUTFNC."""
-    table = msgspec.convert(_read("io_functions.toml")[kind], list[IoFunctionRow])
-    return MappingProxyType({row.letter: row for row in table})
+    return MappingProxyType({row.letter: row for row in _packed().io_functions[kind]})

@@ -235,3 +235,9 @@ def test_io_functions() -> None:
 def test_numbers_in_the_catalogue_survive_as_written() -> None:
     row = catalogue.commands()["A"]
     assert range_of(row).minimum == Decimal("0.00025")
+
+
+def test_the_packed_catalogue_is_the_present_one() -> None:
+    from protocol.pack import PACKED, pack
+
+    assert PACKED.read_text("utf-8") == pack(), "run: python -m protocol.pack"
