@@ -133,6 +133,13 @@ class TestWait:
         stamps = session.timed("WAIT(2PC<1PC)", wait_s=2)
         assert 0 <= stamps[0].at_ns - 0.3 * S <= ONE_UPDATE_EACH_NS + 0.001 * S
 
+    def test_more_readings_than_the_engine_can_watch(self) -> None:
+        session = both_on("COMEXC1")
+        session.ask("GO1")
+        never = "OR".join(f"2PC>{number}" for number in range(1, 10))
+        stamps = session.timed(f"WAIT({never}OR1PC>999)", wait_s=2)
+        assert 0 <= stamps[0].at_ns - 0.3 * S <= ONE_UPDATE_EACH_NS + 0.001 * S
+
     def test_in_user_units(self) -> None:
         session = both_on("SCALE1", "SCLD4000", "SCLV4000", "SCLA4000", "D2", "COMEXC1")
         session.ask("GO1")

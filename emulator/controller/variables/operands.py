@@ -98,7 +98,10 @@ class Operands:
         return axis - 1
 
     def arm_watches(self, condition: Condition) -> None:
-        """Have the unit look again when anything the condition depends on has changed."""
+        """Have the unit look again when anything the condition depends on has changed.
+
+        The engine has a few value watches; a condition with more readings is looked at again at the next system update.
+        """
         engine = self._controller.engine
         engine.clear_watches()
         masks: dict[int, int] = {}
@@ -107,8 +110,8 @@ class Operands:
             depends_on = [*operands_in(relation.left), *operands_in(relation.right)]
             for operand in depends_on:
                 self._add_status_bits(masks, operand)
-                if operand.name in Signal.__members__ and (slot := next(slots, None)) is not None:
-                    self._arm(slot, relation, operand)
+                if operand.name in Signal.__members__:
+                    self._watch_reading(next(slots, None), relation, operand)
             if any(operand.name == "TIM" for operand in depends_on):
                 self._arm_timer(relation)
         for axis_index, mask in masks.items():
@@ -121,6 +124,13 @@ class Operands:
         elif operand.name == "MOV":
             for axis_index in range(self._controller.settings.axes_in_use):
                 masks[axis_index] = masks.get(axis_index, 0) | AxisStatus.MOVING.mask
+
+    def _watch_reading(self, slot: int | None, relation: Relation, operand: Operand) -> None:
+        if slot is None:
+            controller = self._controller
+            controller.alarms.at(controller.engine.next_system_update_ns, _look_again)
+        else:
+            self._arm(slot, relation, operand)
 
     def _arm(self, slot: int, relation: Relation, operand: Operand) -> None:
         """A lone reading against what stands still: the crossing counts; otherwise any change of it may."""
