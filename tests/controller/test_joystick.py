@@ -141,6 +141,23 @@ def test_the_release_input_ends_the_mode() -> None:
     assert not session.axis_bit(9)
 
 
+def test_the_connectors_own_contacts_do_the_same() -> None:
+    session = stick_unit("JOYAXH3", "INDEB1", "JOY1")
+    push(session, FULL_POSITIVE_V, channel=3)
+    assert not session.signal("axis1.moving")
+    session.set_wire("joystick.axes_select", closed=True)
+    session.advance(0.5)
+    assert velocity(session) == pytest.approx(1.0)
+    session.set_wire("joystick.velocity_select", closed=True)
+    session.advance(0.5)
+    assert velocity(session) == pytest.approx(5.0)
+    assert session.query("TINO") == "TINO0011_0100"
+    session.set_wire("joystick.release", closed=True)
+    session.advance(0.5)
+    assert not session.signal("axis1.moving")
+    assert session.query("JOY") == "JOY00"
+
+
 @pytest.mark.parametrize("end", ("!JOY0", "!S", "!K", "!1S"))
 def test_the_mode_ends_with_joy0_stop_and_kill(end: str) -> None:
     session = stick_unit("JOY1")
