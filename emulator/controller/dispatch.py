@@ -16,6 +16,7 @@ from protocol.reply import ReplyLine
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
+    from emulator.controller.settings import Quantities
 
 Lines = Sequence[ReplyLine] | None
 Handler = Callable[["Controller", Command], Lines]
@@ -119,10 +120,19 @@ def store_setting(controller: Controller, command: Command) -> list[int]:
         require_rest(controller, command)
     command = controller.substitute(command)
     changed = controller.settings.assign(command)
-    apply = _appliers.get(row.name)
+    _put_into_force(controller, command, changed)
+    return changed
+
+
+def store_scaled(controller: Controller, command: Command, quantities: Quantities) -> None:
+    """Carry out a setting command of a program with the values it was stored with."""
+    _put_into_force(controller, command, controller.settings.assign_stored(command, quantities))
+
+
+def _put_into_force(controller: Controller, command: Command, changed: list[int]) -> None:
+    apply = _appliers.get(command.name)
     if apply is not None and changed:
         apply(controller, command, changed)
-    return changed
 
 
 def require_rest(controller: Controller, command: Command) -> None:

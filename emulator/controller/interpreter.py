@@ -233,7 +233,7 @@ class Interpreter:
         """A buffered command is stored, collected, or carried out."""
         programs = self._controller.programs
         if programs.stores(command):
-            programs.store(command)
+            programs.store(command, self._controller.settings.scaled_when_stored(command))
             return None
         if self._block is None and command.name in OPENERS:
             self._block = TypedBlock()

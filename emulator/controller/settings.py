@@ -48,6 +48,10 @@ DISCRETE_VALUES: Mapping[str, frozenset[int]] = {"SSFR": frozenset({1, 2, 4, 8})
 ANI_FEEDBACK = 2
 
 
+Quantities = Mapping[int, Quantity]
+"""Values by field index, each with the scale factor it was entered with."""
+
+
 class Settings:
     """The settings of one unit, at power-up defaults until changed."""
 
@@ -291,16 +295,37 @@ class Settings:
         return changed
 
     def _assign_numbers(self, row: CommandRow, command: Command) -> list[int]:
+        return self._put(row, self._read_numbers(row, command))
+
+    def _read_numbers(self, row: CommandRow, command: Command) -> Quantities:
         placed = self._place(row, command)
-        quantities = {
-            index: self._quantity(row, value, index) for index, value in enumerate(placed) if value is not None
-        }
+        return {index: self._quantity(row, value, index) for index, value in enumerate(placed) if value is not None}
+
+    def _put(self, row: CommandRow, quantities: Quantities) -> list[int]:
         stored = self._numbers[self._key(row.name)]
         for index, quantity in quantities.items():
             stored[index] = quantity
             if row.name in FOLLOWED:
                 self._note_entered(row.name, index, quantity)
         return list(quantities)
+
+    def scaled_when_stored(self, command: Command) -> Quantities | None:
+        """The values of a scaled setting with the scaling in force now: a program keeps them as they were stored
+        (6000 PG p.197).  None for a command whose values are not fixed, or that is not scaled.
+
+        Raises:
+            CommandError: a value the setting does not take.
+        """
+        row = command.row
+        if row is None or row.kind != "setting" or row.fields.scale is None or not command.values:
+            return None
+        if command.substituted or any(isinstance(value, Direction) for value in command.values):
+            return None
+        return self._read_numbers(row, command)
+
+    def assign_stored(self, command: Command, quantities: Quantities) -> list[int]:
+        """Carry out a setting command of a program with the values ``scaled_when_stored`` gave."""
+        return self._put(_row_of(command), quantities)
 
     def _note_entered(self, name: str, index: int, quantity: Quantity) -> None:
         """Zero returns a ramp to following its partner (AD0, AA0)."""

@@ -7,9 +7,11 @@ search.  Commands whose partner is missing keep ``NO_PARTNER``; what happens the
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
+from emulator.controller.settings import Quantities
 from protocol.command import Command, parse_command
 from protocol.condition import Condition, parse_condition
 from protocol.errors import CommandError
@@ -34,12 +36,14 @@ class Instruction:
 
     ``flow`` is the name of a flow command, else empty.  ``target`` is where an IF or a WHILE goes when its condition
     does not hold and an ELSE at the end of the true branch; the closing commands keep their opener there.
+    ``quantities`` are the values of a scaled setting as they were when the command was stored.
     """
 
     command: Command
     flow: str
     condition: Condition | None = None
     target: int = NO_PARTNER
+    quantities: Quantities | None = None
 
 
 Code = tuple[Instruction, ...]
@@ -53,9 +57,14 @@ class Prepared:
     labels: dict[str, int]
 
 
-def prepare(texts: Iterable[str]) -> Prepared:
-    """Read the commands of a program, one text each, and join what belongs together."""
+def prepare(texts: Iterable[str], quantities: Mapping[int, Quantities] = MappingProxyType({})) -> Prepared:
+    """Read the commands of a program, one text each, and join what belongs together.
+
+    ``quantities`` holds the values of scaled settings by line.
+    """
     code = tuple(_instruction(parse_command(text)) for text in texts)
+    for line, values in quantities.items():
+        code[line].quantities = values
     _join(code)
     labels = {entry.command.argument: index for index, entry in enumerate(code) if entry.flow == "$"}
     return Prepared(code, labels)

@@ -84,6 +84,9 @@ class Runner:
             if instruction.flow:
                 FLOW[instruction.flow](controller, frame, instruction)
                 return
+            if instruction.quantities is not None:
+                dispatch.store_scaled(controller, instruction.command, instruction.quantities)
+                return
             lines = dispatch.carry_out(controller, instruction.command)
         except CommandError as error:
             interpreter.refuse(instruction.command.text, error, channel)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from emulator.controller.dispatch import Lines, applies, handles, is_implemented, store_setting
 from emulator.controller.programs.execution import Execution
 from emulator.controller.programs.preparation import Prepared, condition_of, prepare
+from emulator.controller.settings import Quantities
 from emulator.controller.variables.data_statements import BYTES_PER_STATEMENT, check_place
 from protocol.command import Command, check_program_name, is_command_name
 from protocol.errors import (
@@ -48,9 +49,13 @@ NO_NAME = "CLR"
 
 @dataclass(slots=True)
 class Program:
-    """One stored program: its text, the memory it takes, and its prepared form once it has been needed."""
+    """One stored program: its text, the memory it takes, and its prepared form once it has been needed.
+
+    ``quantities`` keeps the values of scaled settings, by line, as they were scaled when they were stored.
+    """
 
     texts: list[str] = field(default_factory=list)
+    quantities: dict[int, Quantities] = field(default_factory=dict)
     labels: list[str] = field(default_factory=list)
     size: int = 0
     prepared: Prepared | None = None
@@ -133,8 +138,8 @@ class Programs:
         """Whether a buffered command goes into the program being defined rather than being carried out."""
         return self.defining is not None and command.name != "END"
 
-    def store(self, command: Command) -> None:
-        """Add a command to the program being defined.
+    def store(self, command: Command, quantities: Quantities | None = None) -> None:
+        """Add a command to the program being defined, with its scaled values if it has any.
 
         Raises:
             CommandError: it cannot be stored, or memory is full.
@@ -148,6 +153,8 @@ class Programs:
             raise CommandError(INSUFFICIENT_MEMORY)
         if command.name == "$":
             self._add_label(program, command.argument)
+        if quantities:
+            program.quantities[len(program.texts)] = quantities
         program.texts.append(command.text)
         program.size += size
         self._used += size
@@ -204,7 +211,7 @@ class Programs:
         """
         program = self._find(name)
         if program.prepared is None:
-            program.prepared = prepare(program.texts)
+            program.prepared = prepare(program.texts, program.quantities)
         return program.prepared
 
     def call(self, name: str) -> None:
