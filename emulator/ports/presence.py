@@ -1,9 +1,9 @@
 """Whether any host has the pseudo-terminal open.
 
 Our own side keeps the slave open (see `pty`), so the kernel never reports a hang-up; on Linux inotify tells of each
-open and close of the device node. Like events that nobody has read yet are told as one, so two hosts that open at the
-same moment count as one until the second writes (`count_writer`). Elsewhere, or when inotify instances have run out, a
-host is taken to be present always.
+open and close of the device node. Like events that nobody has read yet are told as one, so two hosts that open within
+the same moment count as one host. Elsewhere, or when inotify instances have run out, a host is taken to be present
+always.
 """
 
 from __future__ import annotations
@@ -54,15 +54,6 @@ class Presence:
                 left = left or self._opens == 1
                 self._opens = max(0, self._opens - 1)
         return Change(left=left, present=self._opens > 0)
-
-    @property
-    def occupied(self) -> bool:
-        """Whether any host has it open, as of the last look."""
-        return self._inotify is None or self._opens > 0
-
-    def count_writer(self) -> None:
-        """Somebody has it open whose opening was merged with another's."""
-        self._opens = max(self._opens, 1)
 
     def close(self) -> None:
         if self._inotify is not None:

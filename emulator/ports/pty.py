@@ -109,22 +109,7 @@ class PtyPort:
             channel.waiting.append(self._let_out)
         if change.present and (change.left or not before):
             channel.waiting.append(self._let_in)
-        data = self._read()
-        if data and not change.present:
-            self._admit_writer(channel)
-        self._append(channel, data)
-
-    def _admit_writer(self, channel: Channel) -> None:
-        """Who writes is there, even if its opening was not told: the system merges like events that nobody has read.
-
-        A second look first, because the bytes may be of a host that came after the first one.
-        """
-        change = self._presence.poll()
-        if not change.present and not change.left:
-            self._presence.count_writer()
-        self._seen_present = self._presence.occupied
-        if self._seen_present:
-            channel.waiting.append(self._let_in)
+        self._append(channel, self._read())
 
     def _take_leave(self, channel: Channel) -> None:
         """What the host wrote before it closed is still executed, unless it may be the next one's already."""

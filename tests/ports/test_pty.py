@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import fcntl
 import os
-import signal
 import sys
 import termios
 from collections.abc import Iterator
@@ -164,20 +163,6 @@ def test_a_program_listing_in_one_write_is_executed_whole(served: Served, link: 
             sent += os.write(fd, data[sent : sent + 4096])
             read_pty(fd, 65536, patience_s=0.0)
         wait_until(lambda: seen(served) >= 10_000)
-
-
-def test_two_hosts_that_open_at_the_same_moment_are_two(served: Served, link: str) -> None:
-    """The system tells of like events that are not read yet as one; who writes afterwards is there all the same."""
-    os.kill(served.process.pid, signal.SIGSTOP)
-    with opened(link) as fd:
-        with opened(link):
-            os.kill(served.process.pid, signal.SIGCONT)
-            assert ask(fd, b"A") == answer(b"A")
-        seen(served)
-        assert ask(fd, b"B") == answer(b"B")
-        assert ask(fd, b"C") == answer(b"C")
-    with opened(link) as fd:
-        assert ask(fd, b"D") == answer(b"D")
 
 
 def test_two_hosts_may_have_it_open_and_one_may_leave(link: str) -> None:
