@@ -104,6 +104,7 @@ class Server:
     def _handle_signals(self, loop: asyncio.AbstractEventLoop) -> None:
         for name in ("SIGINT", "SIGTERM", "SIGHUP"):
             if hasattr(signal, name):
+                # The event loop of Windows has no signal handlers; there Ctrl-C ends the process.
                 with contextlib.suppress(NotImplementedError):
                     loop.add_signal_handler(getattr(signal, name), self._stop.set)
 

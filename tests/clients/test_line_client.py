@@ -39,7 +39,7 @@ class Peer:
     def _send(self, connection: socket.socket, packets: list[bytes]) -> None:
         for packet in packets:
             connection.sendall(packet)
-            time.sleep(0.002)
+            time.sleep(0.002)  # so that the packets arrive apart: the client runs against the wall clock
 
     def close(self) -> None:
         self._server.close()
