@@ -183,13 +183,7 @@ def _conflicts(machine: Machine) -> list[tuple[str, str, str]]:
         *_rate_conflicts(machine),
         *_range_conflicts(machine),
         *_travel_conflicts(machine),
-        *_option_conflicts(machine),
     ]
-
-
-def _option_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
-    """The ANI option has no servo behind it yet: better refused than a feedback source that is not there."""
-    return [("options.ani", "true", "false: analog feedback is not emulated yet")] if machine.options.ani else []
 
 
 def _memory_conflicts(machine: Machine) -> list[tuple[str, str, str]]:

@@ -276,6 +276,16 @@ class Servo(Table, frozen=True):
     """The servo processor."""
 
     dac_bits: Annotated[int, known("resolution of the output over +-10 V, bits", "assumed", "L", ge=8, le=24)] = 16
+    output_delay_us: Annotated[
+        float,
+        known(
+            "from a servo sample to the output computed in it, us; at most one sample",
+            "assumed",
+            "L",
+            "no page tells; 0 is the ideal loop",
+            ge=0,
+        ),
+    ] = 0.0
     unit_factors: Annotated[UnitFactors, known("units of the gain commands", "assumed", "H")] = UnitFactors()
     ssfr_table: Annotated[RateTable, known("update periods", "assumed", "L")] = RateTable()
 
@@ -321,6 +331,13 @@ class Encoder(Table, frozen=True):
     index_phase: Annotated[float, known("where in a revolution the Z pulse lies, rev", "design", ge=0, lt=1)] = 0.5
 
 
+class AnalogSensor(Table, frozen=True):
+    """The position sensor at the ANI feedback input of one axis (`options.ani`); it follows the shaft."""
+
+    volts_at_zero: Annotated[float, known("voltage where the shaft stands at start, V", "design", ge=-10, le=10)] = 0.0
+    volts_per_rev: Annotated[float, known("what one revolution of the shaft adds, V", "design")] = 1.0
+
+
 class Travel(Table, frozen=True):
     """Where the switches of one axis sit, revolutions of the shaft from where it stands at start.
 
@@ -357,6 +374,7 @@ class Axis(Table, frozen=True):
     encoder: Annotated[Encoder, known("the encoder", "design")] = Encoder()
     wires: Annotated[AxisWires, known("its contacts", "design")] = AxisWires()
     travel: Annotated[Travel, known("its switches along the travel", "design")] = Travel()
+    ani: Annotated[AnalogSensor, known("its analog position sensor", "design")] = AnalogSensor()
 
 
 Volts = Annotated[float, msgspec.Meta(ge=0.0, le=2.5)]

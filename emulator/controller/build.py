@@ -6,6 +6,7 @@ from decimal import Decimal
 
 from emulator.controller.settings import Settings
 from emulator.engine import (
+    AnalogSensor,
     AxisHardware,
     Engine,
     ServoRates,
@@ -34,12 +35,13 @@ def build_settings(machine: Machine) -> Settings:
 def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None) -> Engine:
     """The servo engine with the machine's axes."""
     return Engine(
-        [axis_hardware(axis) for axis in machine.axes],
+        [axis_hardware(axis, ani_fitted=machine.options.ani) for axis in machine.axes],
         rates=rates_in_force(machine, settings),
         dac_bits=machine.servo.dac_bits,
         on_build=on_build,
         unit_factors=unit_factors(machine),
         drive_off_to_zero=machine.drive_off_output == "zero",
+        output_delay_s=machine.servo.output_delay_us * 1e-6,
     )
 
 
@@ -61,7 +63,7 @@ def rates_in_force(machine: Machine, settings: Settings) -> ServoRates:
     return ServoRates.from_us(servo_us=row.servo_us, trajectory_us=row.trajectory_us, system_us=row.system_us)
 
 
-def axis_hardware(axis: Axis) -> AxisHardware:
+def axis_hardware(axis: Axis, *, ani_fitted: bool = False) -> AxisHardware:
     """What an axis is connected to, in the engine's terms."""
     switches = axis.travel
     return AxisHardware(
@@ -75,6 +77,7 @@ def axis_hardware(axis: Axis) -> AxisHardware:
             home_from_rev=switches.home_from_rev,
             home_to_rev=switches.home_to_rev,
         ),
+        ani=AnalogSensor(axis.ani.volts_at_zero, axis.ani.volts_per_rev) if ani_fitted else None,
     )
 
 

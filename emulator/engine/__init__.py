@@ -5,7 +5,7 @@ profiles it runs.
 """
 
 from .control_law import Gains, UnitFactors
-from .engine import AxisHardware, DriveShutDown, Engine
+from .engine import AnalogSensor, AxisHardware, DriveShutDown, Engine
 from .events import ENABLE_MASK, Event, Relation, Signal, Wire, wire_mask
 from .plants import Plant, TorqueDrive, VelocityDrive
 from .profile import (
@@ -26,6 +26,7 @@ from .travel import Travel
 __all__ = [
     "ENABLE_MASK",
     "RATES",
+    "AnalogSensor",
     "AxisHardware",
     "DriveShutDown",
     "Engine",

@@ -3,7 +3,7 @@
     P  =  SGP e                 V  = -SGV (first difference of the feedback per servo sample)
     I += SGI e Ts, held within +-SGILIM
     VF =  SGVF v_commanded      AF =  SGAF a_commanded
-    output = P + I + V + VF + AF + SOFFS, held within +-10 V, then within +-DACLIM
+    output = P + I + V + VF + AF + SOFFS + dither, held within +-10 V, then within +-DACLIM
 
 Structure and signs are documented (6250 User Guide PDF pp. 31, 35, 36; OEM6250 Installation Guide pp. 40, 44). With
 all five gains zero the algorithm is off and the output is SOFFS alone (OEM6250 Installation Guide p. 40).
@@ -111,6 +111,21 @@ def closed_loop(unit: Record, axis: Record) -> float:
     axis["term_af"] = axis["acceleration_feedforward_v"] * axis["commanded_acceleration"]
     feedback = axis["term_p"] + axis["term_i"] + axis["term_v"]
     return float(feedback + axis["term_vf"] + axis["term_af"] + axis["offset_v"])
+
+
+@kernel
+def dither(axis: Record) -> float:
+    """Dither for this sample, V: a square wave that turns round every SDTFR servo samples.
+
+    That SDTFR counts servo samples of half a period is assumed, low confidence (the 6000 Series names a "dither
+    frequency ratio" and no more); 0 means no dither.
+    """
+    half_period = axis["dither_samples"]
+    if half_period == 0:
+        return 0.0
+    sample = axis["dither_sample"]
+    axis["dither_sample"] = sample + 1 if sample + 1 < 2 * half_period else 0
+    return float(axis["dither_v"] if sample < half_period else -axis["dither_v"])
 
 
 @kernel

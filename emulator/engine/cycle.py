@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import math
 
-from .control_law import closed_loop, limited, open_loop
-from .converter import convert_output, read_encoder
+from .control_law import closed_loop, dither, limited, open_loop
+from .converter import OPEN_LOOP, convert_output, take_feedback
 from .events import (
     EVENT_HARD_LIMIT,
     EVENT_MOVE_ENDED,
@@ -24,6 +24,15 @@ from .events import (
 )
 from .kernels import Record, Records, kernel
 from .plants import step_plant
+from .scope import (
+    SCOPE_OFF,
+    SCOPE_TRIGGERED,
+    SCOPE_WAITING,
+    ScopeArrays,
+    refresh_status,
+    triggers,
+    write_row,
+)
 from .status import (
     NEGATIVE_HARD_LIMIT,
     NEGATIVE_SOFT_LIMIT,
@@ -106,28 +115,43 @@ def check_position_error(axis: Record) -> None:
 
 @kernel
 def servo_axis(unit: Record, axis: Record) -> None:
-    """Control law and output. With the drive off or the loop open the command follows the feedback: no error."""
-    if axis["feedback_source"] != 0 and axis["enabled"] != 0:
+    """Control law and output. With the drive off or the loop open the command follows the feedback: no error.
+
+    Dither is part of the output of a drive that is on (assumed).
+    """
+    if axis["feedback_source"] != OPEN_LOOP and axis["enabled"] != 0:
         check_position_error(axis)
-    if axis["feedback_source"] != 0 and axis["enabled"] != 0:
-        volts = closed_loop(unit, axis)
+    if axis["feedback_source"] != OPEN_LOOP and axis["enabled"] != 0:
+        volts = closed_loop(unit, axis) + dither(axis)
     else:
         axis["commanded_counts"] = axis["feedback_counts"]
         volts = open_loop(axis)
-        if axis["enabled"] == 0 and unit["drive_off_to_zero"] != 0:
+        if axis["enabled"] != 0:
+            volts += dither(axis)
+        elif unit["drive_off_to_zero"] != 0:
             volts = 0.0
     volts = limited(axis, volts)
     axis["control_v"] = volts
+    axis["previous_dac_v"] = axis["dac_v"]
     axis["dac_v"] = convert_output(unit, axis["output_sign"] * volts)
 
 
 @kernel
+def move_plant(axis: Record, before: Record, after: Record) -> None:
+    """Advance the plant over the servo sample just past: up to the moment at which the last output reached the
+    terminals with the output before it, from then on with the last one."""
+    if before["period_s"] > 0.0:
+        step_plant(axis, before, axis["previous_dac_v"])
+    if after["period_s"] > 0.0:
+        step_plant(axis, after, axis["dac_v"])
+
+
+@kernel
 def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, trajectory_due: bool) -> None:
-    """One servo sample of one axis."""
-    step_plant(axis, unit["servo_s"])
+    """One servo sample of one axis, its plant having moved."""
     if trajectory_due and axis["profile_active"] != 0:
         follow_profile(axis, segments, now_ns)
-    read_encoder(axis)
+    take_feedback(axis)
     if axis["switches_fitted"] != 0:
         operate_switches(unit, axis)
     if axis["capture_mode"] != CAPTURE_NONE:
@@ -269,12 +293,14 @@ def system_is_due(unit: Record) -> bool:
 
 
 @kernel
-def servo_sample(unit: Record, axes: Records, segments: Records, watches: Records) -> int:
+def servo_sample(unit: Record, axes: Records, plants: Records, segments: Records, watches: Records) -> int:
     """One servo sample of all axes; returns the events of a system update that fell on it, else 0."""
     now_ns = unit["next_sample_ns"]
     trajectory_due = trajectory_is_due(unit)
     for axis_index in range(unit["axis_count"]):
-        sample_axis(unit, axes[axis_index], segments, now_ns, trajectory_due)
+        axis = axes[axis_index]
+        move_plant(axis, plants[2 * axis_index], plants[2 * axis_index + 1])
+        sample_axis(unit, axis, segments, now_ns, trajectory_due)
     unit["next_sample_ns"] = now_ns + unit["servo_ns"]
     if trajectory_due and system_is_due(unit):
         return system_update(unit, axes, watches, now_ns)
@@ -282,18 +308,79 @@ def servo_sample(unit: Record, axes: Records, segments: Records, watches: Record
 
 
 @kernel
-def advance(unit: Record, axes: Records, segments: Records, watches: Records, until_ns: int) -> int:
+def run(
+    unit: Record, axes: Records, plants: Records, segments: Records, watches: Records, fired: int, until_ns: int
+) -> int:
+    """Run samples up to `until_ns` or up to events, unless some have `fired` already; returns the events."""
+    while fired == 0 and unit["next_sample_ns"] <= until_ns:
+        fired = servo_sample(unit, axes, plants, segments, watches)
+    return fired
+
+
+@kernel
+def run_recorded(
+    unit: Record,
+    axes: Records,
+    plants: Records,
+    segments: Records,
+    watches: Records,
+    scope: ScopeArrays,
+    until_ns: int,
+) -> int:
+    """As `run`, with the scope writing rows until it is full or the time is reached."""
+    record, ring = scope.records[0], scope.ring
+    channels, unit_channels = scope.channels, scope.unit_channels
+    unit_words, axis_words = scope.unit_words, scope.axis_words
+    # What changes with every row is kept in variables meanwhile: going through the record costs as much as the row.
+    place, written, to_go = record["next_word"], record["rows_written"], record["rows_to_go"]
+    to_row, every = record["samples_to_row"], record["every"]
+    width = record["axis_channels"] + record["unit_channels"]
+    waiting = record["state"] == SCOPE_WAITING
+    wants_status = record["wants_status"] != 0
+    fired = 0
+    while fired == 0 and to_go != 0 and unit["next_sample_ns"] <= until_ns:
+        fired = servo_sample(unit, axes, plants, segments, watches)
+        to_row -= 1
+        if to_row != 0:
+            continue
+        to_row = every
+        if wants_status:
+            refresh_status(axes, unit["axis_count"])
+        if waiting:
+            waiting = not triggers(scope, written)
+        write_row(place, channels, unit_channels, unit_words, axis_words, ring)
+        place += width
+        place = place if place < len(ring) else 0
+        written += 1
+        if not waiting:
+            to_go -= 1
+    record["next_word"], record["rows_written"], record["rows_to_go"] = place, written, to_go
+    record["samples_to_row"] = to_row
+    record["state"] = SCOPE_OFF if to_go == 0 else (SCOPE_WAITING if waiting else SCOPE_TRIGGERED)
+    return run(unit, axes, plants, segments, watches, fired, until_ns)
+
+
+@kernel
+def advance(
+    unit: Record,
+    axes: Records,
+    plants: Records,
+    segments: Records,
+    watches: Records,
+    scope: ScopeArrays,
+    until_ns: int,
+) -> int:
     """Run every sample up to `until_ns`, or up to a system update with events; returns the events.
 
     Also brings the axes' `status` up to date, which is all it does when no sample is due.
     """
-    fired = 0
-    while fired == 0 and unit["next_sample_ns"] <= until_ns:
-        fired = servo_sample(unit, axes, segments, watches)
+    if scope.records[0]["state"] == SCOPE_OFF:
+        fired = run(unit, axes, plants, segments, watches, 0, until_ns)
+    else:
+        fired = run_recorded(unit, axes, plants, segments, watches, scope, until_ns)
     if fired != 0:
         unit["time_ns"] = unit["next_sample_ns"] - unit["servo_ns"]
     elif until_ns > unit["time_ns"]:
         unit["time_ns"] = until_ns
-    for axis_index in range(unit["axis_count"]):
-        axes[axis_index]["status"] = axis_status(axes[axis_index])
+    refresh_status(axes, unit["axis_count"])
     return fired

@@ -13,17 +13,30 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from .control_law import Gains, UnitFactors, gain_fields
-from .converter import DEFAULT_DAC_BITS, dac_fields
+from .converter import ANI_SOURCE, DEFAULT_DAC_BITS, ENCODER_SOURCE, OPEN_LOOP, dac_fields, read_ani
 from .events import MAX_AXES, Event, Relation, Signal, Wire, wire_mask
-from .layout import UNIT, word_of
-from .machine_code import Calls, OnBuild, load_kernel
+from .layout import PLANT, UNIT, word_of
+from .machine_code import Calls, Kernel, OnBuild, load_kernel
 from .memory import Memory, write_fields
 from .plants import Plant, VelocityDrive
 from .profile import Segments, State, evaluate, profile_duration
 from .rates import NS_PER_S, ServoRates
-from .readings import ACTIVE, COMMANDED, ENABLED, FEEDBACK, NS_PER_MS, OFFSET, axis_word
+from .readings import (
+    ACTIVE,
+    ANI,
+    ANI_OFFSET,
+    COMMANDED,
+    ENABLED,
+    ENCODER,
+    ENCODER_OFFSET,
+    FEEDBACK,
+    NS_PER_MS,
+    OFFSET,
+    axis_word,
+)
 from .status import CLEARED_BY_ENABLE
 from .terminals import Terminals
+from .trace import Scope
 from .travel import Capture, Travel, operate_switches
 from .watches import WATCH_SLOTS
 
@@ -41,6 +54,7 @@ _TIME, _NEXT_SAMPLE, _SERVO = (word_of(UNIT, name) for name in ("time_ns", "next
 _TO_TRAJECTORY, _TO_SYSTEM = (word_of(UNIT, name) for name in ("samples_to_trajectory", "trajectories_to_system"))
 _FIRED = word_of(UNIT, "fired_watches")
 _START, _SOURCE = axis_word("profile_start_ns"), axis_word("feedback_source")
+_ANI_FITTED = axis_word("ani_fitted")
 _ENCODER_SIGN, _OUTPUT_SIGN = axis_word("encoder_sign"), axis_word("output_sign")
 _LATCHED, _EXTRA, _STATUS = (axis_word(name) for name in ("latched_status", "extra_status", "status"))
 _EVENTS = axis_word("events")
@@ -60,6 +74,18 @@ class DriveShutDown(RuntimeError):
 
 
 @dataclass(frozen=True, slots=True)
+class AnalogSensor:
+    """A position sensor at an ANI feedback input: its voltage with the shaft at 0 rev, and what a revolution adds."""
+
+    volts_at_zero: float = 0.0
+    volts_per_rev: float = 0.0
+
+    def fields(self) -> dict[str, float]:
+        """Fields of the axis record."""
+        return {"ani_rest_v": self.volts_at_zero, "ani_volts_per_rev": self.volts_per_rev}
+
+
+@dataclass(frozen=True, slots=True)
 class AxisHardware:
     """What one axis is connected to: drive and load, and an encoder counted post-quadrature."""
 
@@ -72,6 +98,8 @@ class AxisHardware:
     """Where in each revolution the index (Z) pulse lies, 0 to 1."""
     travel: Travel = field(default_factory=Travel)
     """The switches that follow the shaft."""
+    ani: AnalogSensor | None = None
+    """The sensor at the ANI feedback input; None: the option is not fitted."""
 
 
 class Engine(Terminals):
@@ -86,16 +114,22 @@ class Engine(Terminals):
         on_build: OnBuild | None = None,
         unit_factors: UnitFactors | None = None,
         drive_off_to_zero: bool = False,
+        output_delay_s: float = 0.0,
     ) -> None:
+        """`output_delay_s` is the time from a servo sample to the moment at which the output computed in it appears at
+        the terminals; more than a sample counts as a whole one."""
         if not 1 <= len(axes) <= MAX_AXES:
             raise ValueError(f"a unit has 1 to {MAX_AXES} axes, not {len(axes)}")
         super().__init__(Memory(len(axes)))
         self._plants = [axis.plant for axis in axes]
+        self._output_delay_s = output_delay_s
         self._profiles: list[Segments] = [() for _ in axes]
         self._gains = [Gains() for _ in axes]
         self._factors = unit_factors or UnitFactors()
         self._kernel = load_kernel(on_build)
-        self._calls: Calls = self._kernel.bind(self._memory)
+        self._bind()
+        self.scope = Scope(self._memory, self._bind)
+        """Records signals at servo rate."""
         write_fields(
             self._memory.unit,
             UNIT,
@@ -104,6 +138,10 @@ class Engine(Terminals):
         for axis_index, hardware in enumerate(axes):
             self._power_up(axis_index, hardware)
         self.set_rates(rates)
+
+    def _bind(self) -> None:
+        """Tell the kernel where the arrays lie; to be repeated when one has moved."""
+        self._calls: Calls = self._kernel.bind(self._memory)
 
     def _power_up(self, axis_index: int, hardware: AxisHardware) -> None:
         start = hardware.start_position_rev * hardware.counts_per_rev + hardware.encoder_phase
@@ -115,6 +153,7 @@ class Engine(Terminals):
             counts_per_rev=hardware.counts_per_rev,
             encoder_phase=hardware.encoder_phase,
             encoder_reading=start // 1,
+            ani_fitted=hardware.ani is not None,
             true_position=hardware.start_position_rev,
             position_error_limit=DEFAULT_POSITION_ERROR_LIMIT,
             output_limit_v=10.0,
@@ -125,7 +164,9 @@ class Engine(Terminals):
             home_active_level=1,
             index_reading=(hardware.index_phase_rev * hardware.counts_per_rev + hardware.encoder_phase) // 1,
             **hardware.travel.fields(),
+            **(hardware.ani or AnalogSensor()).fields(),
         )
+        read_ani(self._memory.axes[axis_index])
         operate_switches(self._memory.units[0], self._memory.axes[axis_index])
         self.set_gains(axis_index, Gains())
         self.set_target_zone(axis_index, distance_counts=50, velocity_counts_s=hardware.counts_per_rev, timeout_ms=1000)
@@ -136,7 +177,9 @@ class Engine(Terminals):
         for axis_index, ints in enumerate(self._ints):
             self.disable(axis_index)
             ints[_LATCHED] = ints[_EXTRA] = ints[_EVENTS] = 0
-            ints[COMMANDED] = ints[OFFSET] = ints[FEEDBACK]
+            ints[_SOURCE] = ENCODER_SOURCE
+            ints[COMMANDED] = ints[OFFSET] = ints[ENCODER_OFFSET] = ints[FEEDBACK] = ints[ENCODER]
+            ints[ANI_OFFSET] = 0
             self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0, capture_mode=Capture.NONE)
         self.clear_watches()
 
@@ -195,13 +238,24 @@ class Engine(Terminals):
             "next_sample_ns": self.time_ns + rates.servo_ns,
         }
         write_fields(self._memory.unit, UNIT, fields)
+        self.scope.note_rates()
         for axis_index, plant in enumerate(self._plants):
             self.set_plant(axis_index, plant)
 
     def set_plant(self, axis_index: int, plant: Plant) -> None:
         """Change the drive and load of an axis while it runs; its position and speed go on."""
         self._plants[axis_index] = plant
-        self._write(axis_index, **plant.fields(self._rates.servo_ns / NS_PER_S))
+        for place, fields in enumerate(self.plant_steps(plant), start=2 * axis_index):
+            write_fields(self._memory.plant[place], PLANT, fields)
+
+    def plant_steps(self, plant: Plant) -> tuple[dict[str, float], dict[str, float]]:
+        """Fields of a plant's two records: before an output reaches the terminals, and after."""
+        period_s = self._rates.servo_ns / NS_PER_S
+        before_s = min(self._output_delay_s, period_s)
+        before, after = (
+            {"period_s": s, **(plant.fields(s) if s > 0.0 else {})} for s in (before_s, period_s - before_s)
+        )
+        return before, after
 
     # Drive
 
@@ -237,7 +291,7 @@ class Engine(Terminals):
         offset = self._ints[axis_index][OFFSET]
         raw = tuple(segment._replace(position=segment.position + offset) for segment in segments)
         if self._memory.reserve_segments(len(raw)):
-            self._calls = self._kernel.bind(self._memory)
+            self._bind()
         self._memory.store_segments(axis_index, raw)
         self._profiles[axis_index] = raw
         duration_s = profile_duration(raw)
@@ -294,12 +348,25 @@ class Engine(Terminals):
         self._write(axis_index, position_error_limit=counts)
 
     def set_feedback(self, axis_index: int, source: int) -> None:
-        """SFB: 0 open loop, 1 encoder, else ValueError. On a change the commanded position takes over the feedback."""
-        if source not in (0, 1):
+        """SFB: 0 open loop, 1 encoder, 2 ANI; ValueError for one that is not fitted.
+
+        On a change the commanded position takes over the new feedback with the PSET offset of that source.
+        """
+        ints = self._ints[axis_index]
+        fitted = (OPEN_LOOP, ENCODER_SOURCE, ANI_SOURCE) if ints[_ANI_FITTED] else (OPEN_LOOP, ENCODER_SOURCE)
+        if source not in fitted:
             raise ValueError(f"feedback source {source} is not fitted")
-        feedback = self._ints[axis_index][FEEDBACK]
-        if source != self._ints[axis_index][_SOURCE]:
-            self._write(axis_index, feedback_source=source, commanded_counts=feedback, term_i=0.0)
+        if source == ints[_SOURCE]:
+            return
+        position, offset = (ANI, ANI_OFFSET) if source == ANI_SOURCE else (ENCODER, ENCODER_OFFSET)
+        ints[_SOURCE] = source
+        ints[OFFSET] = ints[offset]
+        ints[COMMANDED] = ints[FEEDBACK] = ints[position]
+        self._write(axis_index, previous_feedback_counts=ints[position], term_i=0.0)
+
+    def set_dither(self, axis_index: int, *, amplitude_v: float, half_period_samples: int) -> None:
+        """SDTAMP, V, and SDTFR, servo samples in half a period of the square wave; 0 = none."""
+        self._write(axis_index, dither_v=amplitude_v, dither_samples=half_period_samples, dither_sample=0)
 
     def set_polarity(self, axis_index: int, *, encoder: int | None = None, command: int | None = None) -> None:
         """ENCPOL and CMDDIR, 0 normal or 1 reversed. Positions do not jump, only counting and output turn round."""
@@ -309,8 +376,13 @@ class Engine(Terminals):
         self._write(axis_index, output_sign=command_sign, encoder_sign=encoder_sign * command_sign)
 
     def set_position(self, axis_index: int, counts: int) -> None:
-        """PSET: the present commanded position becomes `counts`; the feedback shifts with it, the error stays."""
-        self._ints[axis_index][OFFSET] = self._ints[axis_index][COMMANDED] - counts
+        """PSET: the present commanded position becomes `counts`; the feedback shifts with it, the error stays.
+
+        The offset belongs to the selected feedback source; in open loop to the encoder.
+        """
+        ints = self._ints[axis_index]
+        ints[OFFSET] = ints[COMMANDED] - counts
+        ints[ANI_OFFSET if ints[_SOURCE] == ANI_SOURCE else ENCODER_OFFSET] = ints[OFFSET]
 
     def set_hard_limits(
         self,
@@ -433,6 +505,16 @@ class Engine(Terminals):
     def kernel_origin(self) -> str:
         """Where the kernel came from: interpreted, cache, built, or memory (built, could not be stored)."""
         return self._kernel.origin
+
+    @property
+    def memory(self) -> Memory:
+        """The arrays the servo lives in; for copies of a whole engine (`batch`)."""
+        return self._memory
+
+    @property
+    def kernel(self) -> Kernel:
+        """The kernel the engine runs on."""
+        return self._kernel
 
     def snapshot(self) -> bytes:
         """The whole servo state; equal bytes mean equal states."""

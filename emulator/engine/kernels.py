@@ -20,6 +20,8 @@ import numpy.typing as npt
 
 Record: TypeAlias = np.void
 Records: TypeAlias = npt.NDArray[np.void]
+Words: TypeAlias = npt.NDArray[np.int64]
+Floats: TypeAlias = npt.NDArray[np.float64]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -40,6 +40,7 @@ UNIT_FIELDS: Fields = (
     ("reported_wires", INT, "state of `wires` at the last WIRES event"),
     ("inputs", INT, "electrical state of the programmable inputs, bit 0 = input 1, 1 = grounded"),
     ("reported_inputs", INT, "state of `inputs` at the last WIRES event"),
+    ("outputs", INT, "programmable outputs that are on, bit 0 = output 1, as the controller last set them"),
     ("armed_watches", INT, "value watches still armed"),
     ("fired_watches", INT, "value watches that have fired, bit = slot, since Python last asked"),
 )
@@ -47,7 +48,7 @@ UNIT_FIELDS: Fields = (
 AXIS_FIELDS: Fields = (
     # drive and loop
     ("enabled", INT, "1 = drive on"),
-    ("feedback_source", INT, "SFB code: 0 open loop, 1 encoder"),
+    ("feedback_source", INT, "SFB code: 0 open loop, 1 encoder, 2 ANI"),
     ("encoder_sign", INT, "+1 or -1: ENCPOL times CMDDIR"),
     ("output_sign", INT, "+1 or -1: CMDDIR"),
     # trajectory
@@ -64,12 +65,19 @@ AXIS_FIELDS: Fields = (
     # feedback
     ("counts_per_rev", FLOAT, "encoder counts (post-quadrature) per revolution"),
     ("encoder_phase", FLOAT, "position of the encoder's count edges, in counts, 0 to 1"),
+    ("encoder_counts", INT, "raw encoder position, counts"),
+    ("encoder_offset_counts", INT, "PSET offset of the encoder, counts"),
     ("encoder_reading", INT, "counts of the encoder itself at the last sample, before polarity"),
     ("feedback_counts", INT, "raw feedback position, counts"),
     ("previous_feedback_counts", INT, "raw feedback position one servo sample earlier, counts"),
     ("system_feedback_counts", INT, "raw feedback position at the last system update, counts"),
     ("actual_velocity", FLOAT, "feedback difference over the last system update period, counts/s"),
-    ("offset_counts", INT, "PSET offset: raw minus reported position, counts"),
+    ("offset_counts", INT, "PSET offset of the selected source: raw minus reported position, counts"),
+    ("ani_fitted", INT, "1 = there is an ANI feedback input"),
+    ("ani_rest_v", FLOAT, "voltage at the ANI input with the shaft at 0 rev, V"),
+    ("ani_volts_per_rev", FLOAT, "what the sensor adds to it, V per rev"),
+    ("ani_counts", INT, "converter reading of the ANI input at the last sample, counts"),
+    ("ani_offset_counts", INT, "PSET offset of the ANI input, counts"),
     ("position_error_limit", INT, "SMPER, counts; 0 = not watched"),
     # control law
     ("proportional_v", FLOAT, "SGP, V per count"),
@@ -80,6 +88,9 @@ AXIS_FIELDS: Fields = (
     ("integral_limit_v", FLOAT, "SGILIM, V"),
     ("offset_v", FLOAT, "SOFFS, V"),
     ("output_limit_v", FLOAT, "DACLIM, V"),
+    ("dither_v", FLOAT, "SDTAMP, V"),
+    ("dither_samples", INT, "SDTFR: servo samples in half a period of the dither; 0 = none"),
+    ("dither_sample", INT, "servo samples since the dither last began a period"),
     ("term_p", FLOAT, "proportional term, V"),
     ("term_i", FLOAT, "integral term: the integrator's state, V"),
     ("term_v", FLOAT, "velocity feedback term, V"),
@@ -87,6 +98,7 @@ AXIS_FIELDS: Fields = (
     ("term_af", FLOAT, "acceleration feedforward term, V"),
     ("control_v", FLOAT, "control signal within +-10 V and DACLIM, before polarity and converter, V"),
     ("dac_v", FLOAT, "voltage at the analogue output, V"),
+    ("previous_dac_v", FLOAT, "the same one servo sample earlier, V"),
     # switches along the travel, and captures
     ("switches_fitted", INT, "1 = at least one switch follows the shaft"),
     ("positive_switch_rev", FLOAT, "true position from which the positive limit switch is operated, rev"),
@@ -128,21 +140,25 @@ AXIS_FIELDS: Fields = (
     ("pending_events", INT, "events since the last system update"),
     ("events", INT, "events reported and not yet read"),
     # plant: state
-    ("plant_kind", INT, "0 velocity-mode drive, 1 torque-mode drive"),
     ("true_position", FLOAT, "position of the shaft, rev"),
     ("true_velocity", FLOAT, "velocity of the shaft, rev/s"),
     ("lagged_command", FLOAT, "speed command behind the drive's input lag, rev/s"),
-    # plant: coefficients of a velocity-mode drive over one servo sample
+)
+
+PLANT_FIELDS: Fields = (
+    ("kind", INT, "0 velocity-mode drive, 1 torque-mode drive"),
+    ("period_s", FLOAT, "length of the step these coefficients are for, s; 0 = no such step"),
+    # velocity-mode drive
     ("speed_per_volt", FLOAT, "speed command, rev/s per V"),
     ("lag_decay", FLOAT, "share of the input lag's state that is left"),
     ("loop_decay", FLOAT, "share of the speed deviation that is left"),
     ("lag_to_speed", FLOAT, "speed per rev/s of input lag deviation"),
     ("loop_to_position", FLOAT, "position per rev/s of speed deviation, s"),
     ("lag_to_position", FLOAT, "position per rev/s of input lag deviation, s"),
-    ("speed_step_limit", FLOAT, "largest change of speed in a sample that the peak torque allows, rev/s"),
+    ("speed_step_limit", FLOAT, "largest change of speed in a step that the peak torque allows, rev/s"),
     ("coast_decay", FLOAT, "share of the speed that is left, drive shut down"),
     ("coast_to_position", FLOAT, "position per rev/s of speed, drive shut down, s"),
-    # plant: coefficients of a torque-mode drive over one servo sample
+    # torque-mode drive
     ("torque_per_volt", FLOAT, "torque of the drive, Nm per V"),
     ("peak_torque", FLOAT, "largest torque of the drive, Nm"),
     ("load_torque", FLOAT, "torque against positive motion, Nm"),
@@ -170,14 +186,41 @@ WATCH_FIELDS: Fields = (
 )
 
 
+SCOPE_FIELDS: Fields = (
+    ("state", INT, "0 off or full, 1 waiting for the trigger, 2 triggered"),
+    ("axis_channels", INT, "words of the axis records in a row of the ring"),
+    ("unit_channels", INT, "words of the unit's record in a row of the ring"),
+    ("rows", INT, "rows the ring holds"),
+    ("next_word", INT, "word of the ring at which the next row begins"),
+    ("rows_written", INT, "rows written since arming"),
+    ("rows_to_go", INT, "rows still to be written after the trigger"),
+    ("pre_trigger_rows", INT, "rows that must be in the ring before the trigger may act"),
+    ("trigger_row", INT, "count of rows written before the row of the trigger"),
+    ("every", INT, "servo samples in a row"),
+    ("samples_to_row", INT, "samples up to and including the one of the next row"),
+    ("wants_status", INT, "1 = AS words are worked out for every row"),
+    ("trigger_on", INT, "1 = there is a condition, 0 = trigger at once"),
+    ("trigger_unit", INT, "1 = the condition looks at the unit's record, 0 = at the axes'"),
+    ("trigger_word", INT, "word the condition looks at"),
+    ("trigger_minus", INT, "word subtracted from it, -1 for none"),
+    ("trigger_mask", INT, "bits of the word that make it 1, else 0; 0 = the word is a number"),
+    ("trigger_is_float", INT, "1 = the word is a float"),
+    ("trigger_relation", INT, "code of `events.Relation`"),
+    ("trigger_threshold", FLOAT, "value compared with"),
+    ("trigger_held", INT, "1 = the condition held at the row before"),
+)
+
+
 def _dtype(fields: Fields) -> np.dtype:
     return np.dtype([(name, kind) for name, kind, _ in fields], align=True)
 
 
 UNIT = _dtype(UNIT_FIELDS)
 AXIS = _dtype(AXIS_FIELDS)
+PLANT = _dtype(PLANT_FIELDS)
 SEGMENT = _dtype(SEGMENT_FIELDS)
 WATCH = _dtype(WATCH_FIELDS)
+SCOPE = _dtype(SCOPE_FIELDS)
 
 WORD_BYTES = 8
 

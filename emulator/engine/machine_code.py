@@ -30,10 +30,13 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
-from . import cycle
-from .kernels import KERNEL_FUNCTIONS, Records
-from .layout import AXIS, SEGMENT, UNIT, WATCH
+import numpy as np
+
+from . import cycle, lanes
+from .kernels import KERNEL_FUNCTIONS
+from .layout import AXIS, PLANT, SCOPE, SEGMENT, UNIT, WATCH, WORD_BYTES
 from .memory import Memory
+from .scope import ScopeArrays
 from .watches import WATCH_SLOTS
 
 MODE_VARIABLE = "OEM6250_KERNEL"
@@ -57,20 +60,30 @@ UNCALLED_HELPERS = (
 FILE_MARK = b"OEM6250 servo kernel 1\n"
 DIGEST_BYTES = 32
 
+UNIT_WORDS = UNIT.itemsize // WORD_BYTES
+AXIS_WORDS = AXIS.itemsize // WORD_BYTES
+
+ONE_UNIT = 0
+"""Number of lanes that stands for a unit by itself, which runs only up to its next event."""
+
 OnBuild = Callable[[str], None]
 Advance = Callable[[int], int]
 
-_ARGUMENTS = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)
+_ARGUMENTS = (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64)
 _RELEASING = ctypes.CFUNCTYPE(ctypes.c_int64, *_ARGUMENTS)
 _KEEPING = ctypes.PYFUNCTYPE(ctypes.c_int64, *_ARGUMENTS)
 
 
 @dataclass(frozen=True, slots=True)
 class Calls:
-    """The kernel bound to one unit's memory: `advance(until_ns) -> events`, in two ways of calling it."""
+    """The kernel bound to one unit's memory: `advance(until_ns) -> events`, in two ways of calling it.
+
+    `keep_alive` holds what the calls point to.
+    """
 
     long_run: Advance
     short_run: Advance
+    keep_alive: Any
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +98,21 @@ class Kernel:
         """Bind the kernel to a unit's arrays; to be repeated when one of them has moved."""
         if self.origin == "interpreted":
             return _bind_interpreted(memory)
-        pointers = [array.ctypes.data for array in _arrays(memory)]
-        return Calls(_bound(_RELEASING(self.address), pointers), _bound(_KEEPING(self.address), pointers))
+        table = memory.addresses()
+        place = table.ctypes.data
+        return Calls(_bound(_RELEASING(self.address), place), _bound(_KEEPING(self.address), place), table)
+
+    def bind_lanes(self, memory: Memory, count: int) -> Advance:
+        """Bind the kernel to the arrays of `count` units; the call releases the interpreter lock and returns 0."""
+        if self.origin == "interpreted":
+            return _bind_interpreted_lanes(memory)
+        table = memory.addresses()
+        function = _RELEASING(self.address)
+
+        def advance(until_ns: int) -> int:
+            return int(function(table.ctypes.data, count, until_ns))
+
+        return advance
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,7 +232,8 @@ def build(path: Path) -> Kernel:
 def _compile() -> Any:
     """The kernel's entry point as a numba C callback, every registered function compiled into it.
 
-    The functions are compiled as copies whose globals name the compiled callees; the originals stay plain Python.
+    The functions are compiled as copies whose globals name the compiled callees; the originals stay plain Python. The
+    entry takes the table of `Memory.addresses`: one pointer costs a caller less than eight.
     """
     numba: Any = import_module("numba")
     compiled: dict[int, Any] = {}
@@ -214,18 +241,34 @@ def _compile() -> Any:
         names = {name: compiled.get(id(value), value) for name, value in function.__globals__.items()}
         copy = FunctionType(function.__code__, names, function.__name__)
         compiled[id(function)] = numba.njit(nogil=True, error_model="numpy")(copy)
-    advance, carray = compiled[id(cycle.advance)], numba.carray
+    advance_one, advance_lanes, carray = compiled[id(cycle.advance)], compiled[id(lanes.advance_lanes)], numba.carray
 
-    def entry(unit_at, axes_at, segments_at, watches_at, until_ns):  # type: ignore[no-untyped-def]
-        unit = carray(unit_at, (1,))[0]
-        axis_count = unit["axis_count"]
-        axes = carray(axes_at, (axis_count,))
-        segments = carray(segments_at, (axis_count * unit["segment_capacity"],))
-        watches = carray(watches_at, (WATCH_SLOTS,))
-        return advance(unit, axes, segments, watches, until_ns)
+    def entry(table, lane_count, until_ns):  # type: ignore[no-untyped-def]
+        count = max(lane_count, 1)
+        units = carray(table[0], (count,), UNIT)
+        axis_count = units[0]["axis_count"]
+        axes = carray(table[1], (count * axis_count,), AXIS)
+        plants = carray(table[2], (count * axis_count * 2,), PLANT)
+        segments = carray(table[3], (axis_count * units[0]["segment_capacity"],), SEGMENT)
+        watches = carray(table[4], (WATCH_SLOTS,), WATCH)
+        scopes = carray(table[5], (count,), SCOPE)
+        ring_words = scopes[0]["rows"] * (scopes[0]["axis_channels"] + scopes[0]["unit_channels"])
+        scope = ScopeArrays(
+            scopes,
+            carray(table[6], (scopes[0]["axis_channels"] + 1,), np.int64),
+            carray(table[7], (scopes[0]["unit_channels"] + 1,), np.int64),
+            carray(table[0], (count * UNIT_WORDS,), np.int64),
+            carray(table[0], (count * UNIT_WORDS,), np.float64),
+            carray(table[1], (count * axis_count * AXIS_WORDS,), np.int64),
+            carray(table[1], (count * axis_count * AXIS_WORDS,), np.float64),
+            carray(table[8], (count * ring_words,), np.int64),
+        )
+        if lane_count == 0:
+            return advance_one(units[0], axes, plants, segments, watches, scope, until_ns)
+        return advance_lanes(units, axes, plants, segments, watches, scope, until_ns)
 
-    pointers = [numba.types.CPointer(numba.from_dtype(dtype)) for dtype in (UNIT, AXIS, SEGMENT, WATCH)]
-    return numba.cfunc(numba.types.int64(*pointers, numba.types.int64), error_model="numpy")(entry)
+    table = numba.types.CPointer(numba.types.voidptr)
+    return numba.cfunc(numba.types.int64(table, numba.types.int64, numba.types.int64), error_model="numpy")(entry)
 
 
 def _fingerprint() -> str:
@@ -236,7 +279,7 @@ def _fingerprint() -> str:
     for source in sorted({inspect.getfile(function) for function in KERNEL_FUNCTIONS} | {__file__}):
         digest.update(Path(source).read_bytes())
     facts = (
-        [dtype.descr for dtype in (UNIT, AXIS, SEGMENT, WATCH)],
+        [dtype.descr for dtype in (UNIT, AXIS, PLANT, SEGMENT, WATCH, SCOPE)],
         [version(name) for name in ("numba", "llvmlite", "numpy")],
         sys.version,
         platform.machine(),
@@ -247,23 +290,26 @@ def _fingerprint() -> str:
     return digest.hexdigest()[:32]
 
 
-def _arrays(memory: Memory) -> tuple[Records, Records, Records, Records]:
-    return memory.units, memory.axes, memory.segments, memory.watches
-
-
-def _bound(function: Any, pointers: list[int]) -> Advance:
-    unit, axes, segments, watches = pointers
-
+def _bound(function: Any, table: int) -> Advance:
     def advance(until_ns: int) -> int:
-        return int(function(unit, axes, segments, watches, until_ns))
+        return int(function(table, ONE_UNIT, until_ns))
 
     return advance
 
 
 def _bind_interpreted(memory: Memory) -> Calls:
-    units, axes, segments, watches = _arrays(memory)
+    arrays = (memory.units[0], memory.axes, memory.plants, memory.segments, memory.watches, memory.scope_arrays())
 
     def advance(until_ns: int) -> int:
-        return int(cycle.advance(units[0], axes, segments, watches, until_ns))
+        return int(cycle.advance(*arrays, until_ns))
 
-    return Calls(advance, advance)
+    return Calls(advance, advance, arrays)
+
+
+def _bind_interpreted_lanes(memory: Memory) -> Advance:
+    arrays = (memory.units, memory.axes, memory.plants, memory.segments, memory.watches, memory.scope_arrays())
+
+    def advance(until_ns: int) -> int:
+        return lanes.advance_lanes(*arrays, until_ns)
+
+    return advance

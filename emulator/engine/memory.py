@@ -11,10 +11,12 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from .kernels import Records
-from .layout import AXIS, SEGMENT, UNIT, WATCH, WORD_BYTES, places_of
+from .layout import AXIS, PLANT, SCOPE, SEGMENT, UNIT, WATCH, WORD_BYTES, places_of
 from .profile import Segment
+from .scope import NO_WORD, SCOPE_OFF, ScopeArrays
 from .watches import WATCH_SLOTS
 
 SEGMENTS_AT_START = 16
@@ -46,16 +48,27 @@ def write_fields(words: Words, dtype: np.dtype, fields: Mapping[str, float]) -> 
 
 
 class Memory:
-    """The arrays of one unit with `axis_count` axes."""
+    """The arrays of one unit with `axis_count` axes.
+
+    Of each axis there are two plant records: for the part of a servo sample before the output computed at its beginning
+    reaches the terminals, and for the rest.
+    """
 
     def __init__(self, axis_count: int) -> None:
         self.units: Records = np.zeros(1, UNIT)
         self.axes: Records = np.zeros(axis_count, AXIS)
+        self.plants: Records = np.zeros(2 * axis_count, PLANT)
         self.watches: Records = np.zeros(WATCH_SLOTS, WATCH)
         self.segments: Records = np.zeros(0, SEGMENT)
+        self.scopes: Records = np.zeros(1, SCOPE)
+        self.channels = np.array([NO_WORD], np.int64)
+        self.unit_channels = np.array([NO_WORD], np.int64)
+        self.ring = np.zeros(0, np.int64)
         self.capacity = 0
         self.unit = words_of(self.units, 0)
         self.axis = [words_of(self.axes, index) for index in range(axis_count)]
+        self.plant = [words_of(self.plants, index) for index in range(2 * axis_count)]
+        self.scope = words_of(self.scopes, 0)
         self.reserve_segments(SEGMENTS_AT_START)
 
     def reserve_segments(self, count: int) -> bool:
@@ -79,6 +92,54 @@ class Memory:
             self.segments[row] = (start_s, *segment[1:])
             start_s += segment.duration_s
 
+    def reserve_scope(self, channels: Sequence[int], unit_channels: Sequence[int], rows: int) -> None:
+        """A ring of `rows` rows for these words of the axis records and of the unit's, in place of the old one."""
+        self.channels = np.array([*channels, NO_WORD], np.int64)
+        self.unit_channels = np.array([*unit_channels, NO_WORD], np.int64)
+        self.ring = np.zeros(rows * (len(channels) + len(unit_channels)), np.int64)
+        fields = {"axis_channels": len(channels), "unit_channels": len(unit_channels), "rows": rows, "next_word": 0}
+        write_fields(self.scope, SCOPE, {"state": SCOPE_OFF, **fields})
+
+    def scope_arrays(self) -> ScopeArrays:
+        """What the scope works on, as the interpreted kernel takes it."""
+        return ScopeArrays(
+            self.scopes,
+            self.channels,
+            self.unit_channels,
+            self.units.view(np.int64),
+            self.units.view(np.float64),
+            self.axes.view(np.int64),
+            self.axes.view(np.float64),
+            self.ring,
+        )
+
+    def addresses(self) -> npt.NDArray[np.uintp]:
+        """Where the arrays lie, in the order in which the compiled kernel expects them."""
+        arrays = (
+            self.units,
+            self.axes,
+            self.plants,
+            self.segments,
+            self.watches,
+            self.scopes,
+            self.channels,
+            self.unit_channels,
+            self.ring,
+        )
+        return np.array([array.ctypes.data for array in arrays], np.uintp)
+
+    def replicate(self, count: int) -> Memory:
+        """Memory of `count` units, each in this one's state, with one table of profiles and one set of watches."""
+        copy = Memory(len(self.axes))
+        copy.units, copy.axes = np.tile(self.units, count), np.tile(self.axes, count)
+        copy.plants, copy.scopes = np.tile(self.plants, count), np.tile(self.scopes, count)
+        copy.ring = np.tile(self.ring, count)
+        copy.segments, copy.watches, copy.channels = self.segments.copy(), self.watches.copy(), self.channels.copy()
+        copy.unit_channels = self.unit_channels.copy()
+        copy.capacity = self.capacity
+        return copy
+
     def snapshot(self) -> bytes:
-        """Every byte of the state, equal for equal states."""
-        return b"".join(array.tobytes() for array in (self.units, self.axes, self.watches, self.segments))
+        """Every byte of the servo's state, equal for equal states; the scope only looks on and does not count."""
+        arrays = (self.units, self.axes, self.plants, self.watches, self.segments)
+        return b"".join(array.tobytes() for array in arrays)

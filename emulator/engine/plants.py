@@ -52,13 +52,13 @@ class VelocityDrive:
         _require_not_negative(command_lag_s=self.command_lag_s)
 
     def fields(self, period_s: float) -> dict[str, float]:
-        """Fields of the axis record for a servo sample of `period_s`."""
+        """Fields of a plant record for a step of `period_s`."""
         tau, lag = self.loop_time_constant_s, self.command_lag_s
         loop_decay = math.exp(-period_s / tau)
         lag_decay = math.exp(-period_s / lag) if lag > 0.0 else 0.0
         lag_to_speed, lag_to_position = _lag_response(tau, lag, period_s)
         return {
-            "plant_kind": VELOCITY_DRIVE,
+            "kind": VELOCITY_DRIVE,
             "speed_per_volt": self.speed_per_volt_rev_s,
             "lag_decay": lag_decay,
             "loop_decay": loop_decay,
@@ -87,12 +87,12 @@ class TorqueDrive:
         _require_not_negative(viscous_nm_s_per_rev=self.viscous_nm_s_per_rev, coulomb_nm=self.coulomb_nm)
 
     def fields(self, period_s: float) -> dict[str, float]:
-        """Fields of the axis record for a servo sample of `period_s`."""
+        """Fields of a plant record for a step of `period_s`."""
         torque_per_acceleration = 2.0 * math.pi * self.inertia_kg_m2
         rate = self.viscous_nm_s_per_rev / torque_per_acceleration
         speed_to_position, second_integral = _viscous_response(rate, period_s)
         return {
-            "plant_kind": TORQUE_DRIVE,
+            "kind": TORQUE_DRIVE,
             "torque_per_volt": self.torque_per_volt_nm,
             "peak_torque": self.peak_torque_nm,
             "load_torque": self.load_torque_nm,
@@ -147,42 +147,46 @@ def _viscous_response(rate: float, period_s: float) -> tuple[float, float]:
 
 
 @kernel
-def step_velocity_drive(axis: Record, servo_s: float) -> None:
-    """Advance a velocity-mode drive by one sample with the output held.
+def step_velocity_drive(axis: Record, plant: Record, volts: float) -> None:
+    """Advance a velocity-mode drive by one step with the output held.
 
     While the average acceleration over the sample would exceed what the peak torque allows, speed changes at that
     limit instead. A drive shut down lets the motor coast; its input lag follows the voltage all the same.
     """
-    command = axis["dac_v"] * axis["speed_per_volt"]
+    command = volts * plant["speed_per_volt"]
     lag_deviation = axis["lagged_command"] - command
-    axis["lagged_command"] = command + lag_deviation * axis["lag_decay"]
+    axis["lagged_command"] = command + lag_deviation * plant["lag_decay"]
     speed = axis["true_velocity"]
     if axis["enabled"] == 0:
-        axis["true_position"] += speed * axis["coast_to_position"]
-        axis["true_velocity"] = speed * axis["coast_decay"]
+        axis["true_position"] += speed * plant["coast_to_position"]
+        axis["true_velocity"] = speed * plant["coast_decay"]
         return
     deviation = speed - command
-    step = command + deviation * axis["loop_decay"] + lag_deviation * axis["lag_to_speed"] - speed
-    if abs(step) <= axis["speed_step_limit"]:
-        travel = command * servo_s + deviation * axis["loop_to_position"] + lag_deviation * axis["lag_to_position"]
+    step = command + deviation * plant["loop_decay"] + lag_deviation * plant["lag_to_speed"] - speed
+    if abs(step) <= plant["speed_step_limit"]:
+        travel = (
+            command * plant["period_s"]
+            + deviation * plant["loop_to_position"]
+            + lag_deviation * plant["lag_to_position"]
+        )
     else:
-        step = axis["speed_step_limit"] if step > 0.0 else -axis["speed_step_limit"]
-        travel = (speed + 0.5 * step) * servo_s
+        step = plant["speed_step_limit"] if step > 0.0 else -plant["speed_step_limit"]
+        travel = (speed + 0.5 * step) * plant["period_s"]
     axis["true_position"] += travel
     axis["true_velocity"] = speed + step
 
 
 @kernel
-def drive_torque(axis: Record) -> float:
+def drive_torque(axis: Record, plant: Record, volts: float) -> float:
     """Torque on the shaft without friction, Nm: the drive's within its peak, less the load."""
-    torque = axis["dac_v"] * axis["torque_per_volt"]
-    if torque > axis["peak_torque"]:
-        torque = axis["peak_torque"]
-    if torque < -axis["peak_torque"]:
-        torque = -axis["peak_torque"]
+    torque = volts * plant["torque_per_volt"]
+    if torque > plant["peak_torque"]:
+        torque = plant["peak_torque"]
+    if torque < -plant["peak_torque"]:
+        torque = -plant["peak_torque"]
     if axis["enabled"] == 0:
         torque = 0.0
-    return float(torque - axis["load_torque"])
+    return float(torque - plant["load_torque"])
 
 
 @kernel
@@ -196,35 +200,35 @@ def beyond_friction(applied: float, coulomb: float) -> float:
 
 
 @kernel
-def step_torque_drive(axis: Record, servo_s: float) -> None:
-    """Advance a torque-mode drive by one sample with the output held.
+def step_torque_drive(axis: Record, plant: Record, volts: float) -> None:
+    """Advance a torque-mode drive by one step with the output held.
 
     Dry friction opposes motion. Where it would turn the speed round within the sample, the shaft comes to rest at the
     crossing, found with speed taken as linear, and leaves again only if the torque beats friction: no chatter at rest.
     """
-    applied = drive_torque(axis)
-    coulomb = axis["coulomb_torque"]
+    applied = drive_torque(axis, plant, volts)
+    coulomb = plant["coulomb_torque"]
     speed = axis["true_velocity"]
     net = beyond_friction(applied, coulomb)
     if speed > 0.0:
         net = applied - coulomb
     if speed < 0.0:
         net = applied + coulomb
-    end_speed = speed * axis["speed_decay"] + net * axis["torque_to_speed"]
-    travel = speed * axis["speed_to_position"] + net * axis["torque_to_position"]
+    end_speed = speed * plant["speed_decay"] + net * plant["torque_to_speed"]
+    travel = speed * plant["speed_to_position"] + net * plant["torque_to_position"]
     if speed * end_speed < 0.0:
         before_rest = speed / (speed - end_speed)
         after_rest = 1.0 - before_rest
-        end_speed = beyond_friction(applied, coulomb) * axis["torque_to_speed"] * after_rest
-        travel = 0.5 * servo_s * (speed * before_rest + end_speed * after_rest)
+        end_speed = beyond_friction(applied, coulomb) * plant["torque_to_speed"] * after_rest
+        travel = 0.5 * plant["period_s"] * (speed * before_rest + end_speed * after_rest)
     axis["true_velocity"] = end_speed
     axis["true_position"] += travel
 
 
 @kernel
-def step_plant(axis: Record, servo_s: float) -> None:
-    """Advance the axis's plant by one servo sample."""
-    if axis["plant_kind"] == VELOCITY_DRIVE:
-        step_velocity_drive(axis, servo_s)
+def step_plant(axis: Record, plant: Record, volts: float) -> None:
+    """Advance the axis's plant by the step `plant` is for, with `volts` at the drive's input."""
+    if plant["kind"] == VELOCITY_DRIVE:
+        step_velocity_drive(axis, plant, volts)
     else:
-        step_torque_drive(axis, servo_s)
+        step_torque_drive(axis, plant, volts)

@@ -6,6 +6,7 @@ reported counts (after `PSET`), velocities counts per second; `axis_index` count
 
 from __future__ import annotations
 
+from .converter import ANI_COUNTS_PER_VOLT
 from .layout import AXIS, word_of
 from .memory import Memory
 
@@ -16,6 +17,8 @@ def axis_word(name: str) -> int:
 
 
 COMMANDED, FEEDBACK, OFFSET = (axis_word(name) for name in ("commanded_counts", "feedback_counts", "offset_counts"))
+ENCODER, ENCODER_OFFSET = axis_word("encoder_counts"), axis_word("encoder_offset_counts")
+ANI, ANI_OFFSET = axis_word("ani_counts"), axis_word("ani_offset_counts")
 ACTIVE, ENABLED = axis_word("profile_active"), axis_word("enabled")
 SETTLING_TIME = axis_word("settling_ns")
 VELOCITY, ACCELERATION = axis_word("commanded_velocity"), axis_word("commanded_acceleration")
@@ -72,7 +75,16 @@ class AxisReadings:
     def encoder_position(self, axis_index: int) -> int:
         """Encoder position (TPE), counts."""
         ints = self._ints[axis_index]
-        return ints[FEEDBACK] - ints[OFFSET]
+        return ints[ENCODER] - ints[ENCODER_OFFSET]
+
+    def ani_position(self, axis_index: int) -> int:
+        """Position of the ANI feedback input (TANI), counts; 0 without the option."""
+        ints = self._ints[axis_index]
+        return ints[ANI] - ints[ANI_OFFSET]
+
+    def ani_volts(self, axis_index: int) -> float:
+        """Voltage at the ANI feedback input as converted, V; 0 without the option."""
+        return self._ints[axis_index][ANI] / ANI_COUNTS_PER_VOLT
 
     def feedback_position(self, axis_index: int) -> int:
         """Position of the selected feedback source (TFB), counts."""

@@ -11,6 +11,7 @@ from .readings import FEEDBACK, AxisReadings, axis_word
 from .travel import Capture, home_active
 
 _WIRES, _INPUTS, _REPORTED_WIRES = (word_of(UNIT, name) for name in ("wires", "inputs", "reported_wires"))
+_OUTPUTS = word_of(UNIT, "outputs")
 _OPERATED = axis_word("operated_switches")
 _NO_WIRES = -1
 """A state of `reported_wires` that the wires can never have."""
@@ -63,6 +64,10 @@ class Terminals(AxisReadings):
     def set_inputs(self, bits: int) -> None:
         """Set the electrical state of all programmable inputs."""
         self._unit[_INPUTS] = bits
+
+    def set_outputs(self, bits: int) -> None:
+        """Tell which programmable outputs are on, bit 0 = output 1; for the scope, the servo has no use for it."""
+        self._unit[_OUTPUTS] = bits
 
     # Home and index
 

@@ -17,7 +17,9 @@ def signal_value(axis: Record, signal: int) -> float:
     """Value of a signal, codes of `events.Signal`; positions in reported counts."""
     if signal == 0:
         return float(axis["commanded_counts"] - axis["offset_counts"])
-    if signal == 1 or signal == 2:
+    if signal == 1:
+        return float(axis["encoder_counts"] - axis["encoder_offset_counts"])
+    if signal == 2:
         return float(axis["feedback_counts"] - axis["offset_counts"])
     if signal == 3:
         return float(axis["commanded_counts"] - axis["feedback_counts"])

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emulator.engine.converter import convert_output, dac_fields, read_encoder
+from emulator.engine.converter import convert_output, dac_fields, read_encoder, take_feedback
 from emulator.engine.layout import AXIS, UNIT
 
 
@@ -51,10 +51,10 @@ def test_the_encoder_counts_whole_edges_passed(positions: list[float], phase: fl
     axis = np.zeros(1, AXIS)[0]
     axis["counts_per_rev"], axis["encoder_phase"], axis["encoder_sign"] = 4000.0, phase, 1
     for position in positions:
-        before = int(axis["feedback_counts"])
+        before = int(axis["encoder_counts"])
         axis["true_position"] = position
-        read_encoder(axis)
-        assert axis["feedback_counts"] == math.floor(position * 4000.0 + phase)
+        take_feedback(axis)
+        assert axis["encoder_counts"] == axis["feedback_counts"] == math.floor(position * 4000.0 + phase)
         assert axis["previous_feedback_counts"] == before
 
 
@@ -64,7 +64,7 @@ def test_turning_the_polarity_round_does_not_move_the_position() -> None:
     read_encoder(axis)
     axis["encoder_sign"] = -1
     read_encoder(axis)
-    assert axis["feedback_counts"] == 4000
+    assert axis["encoder_counts"] == 4000
     axis["true_position"] = 1.25
     read_encoder(axis)
-    assert axis["feedback_counts"] == 3000
+    assert axis["encoder_counts"] == 3000

@@ -10,18 +10,32 @@ import pytest
 from scipy.linalg import expm
 
 from emulator.engine import RATES, Plant, TorqueDrive, VelocityDrive
-from emulator.engine.layout import AXIS
+from emulator.engine.layout import AXIS, PLANT
 from emulator.engine.plants import step_plant
 
 PERIODS_S = [rates.servo_ns * 1e-9 for rates in RATES.values()]
 TURN = 2.0 * math.pi
 
 
-def axis_with(plant: Plant, period_s: float, **state: float) -> Any:
-    axis = np.zeros(1, AXIS)[0]
-    for name, value in {"enabled": 1, **plant.fields(period_s), **state}.items():
-        axis[name] = value
-    return axis
+class Rig:
+    """A plant by itself: the state it has in an axis, its coefficients for one period, and a hand on its voltage."""
+
+    def __init__(self, plant: Plant, period_s: float, **state: float) -> None:
+        self._axis, self._plant = np.zeros(1, AXIS)[0], np.zeros(1, PLANT)[0]
+        self._axis["enabled"] = 1
+        for name, value in {"period_s": period_s, **plant.fields(period_s)}.items():
+            self._plant[name] = value
+        for name, value in state.items():
+            self._axis[name] = value
+
+    def __getitem__(self, name: str) -> Any:
+        return self._axis[name]
+
+    def __setitem__(self, name: str, value: float) -> None:
+        self._axis[name] = value
+
+    def step(self, volts: float) -> None:
+        step_plant(self._axis, self._plant, volts)
 
 
 def volts_sequence(count: int) -> list[float]:
@@ -45,36 +59,35 @@ def exact_linear(system: np.ndarray, inputs: np.ndarray, volts: list[float], per
 @pytest.mark.parametrize("lag_s", [0.0003, 0.002, 0.00200000001, 0.005])
 def test_velocity_drive_is_exact_under_zero_order_hold(period_s: float, lag_s: float) -> None:
     plant = VelocityDrive(command_lag_s=lag_s, max_acceleration_rev_s2=math.inf)
-    axis, volts = axis_with(plant, period_s), volts_sequence(60)
+    rig, volts = Rig(plant, period_s), volts_sequence(60)
     for u in volts:
-        axis["dac_v"] = u
-        step_plant(axis, period_s)
+        rig.step(u)
     tau = plant.loop_time_constant_s
     system = np.array([[0.0, 1.0, 0.0], [0.0, -1 / tau, 1 / tau], [0.0, 0.0, -1 / lag_s]])
     expected = exact_linear(system, np.array([0.0, 0.0, plant.speed_per_volt_rev_s / lag_s]), volts, period_s)
-    actual = [axis["true_position"], axis["true_velocity"], axis["lagged_command"]]
+    actual = [rig["true_position"], rig["true_velocity"], rig["lagged_command"]]
     assert actual == pytest.approx(expected.tolist(), rel=1e-7, abs=1e-9)
 
 
 @pytest.mark.parametrize("period_s", PERIODS_S)
 def test_velocity_drive_without_input_lag(period_s: float) -> None:
     plant = VelocityDrive(command_lag_s=0.0, max_acceleration_rev_s2=math.inf)
-    axis = axis_with(plant, period_s, dac_v=2.0)
+    rig = Rig(plant, period_s)
     for _ in range(20):
-        step_plant(axis, period_s)
+        rig.step(2.0)
     t, tau = 20 * period_s, plant.loop_time_constant_s
     # The lag's state starts at 0 and, without a lag, plays no part even in the first sample.
-    assert axis["true_velocity"] == pytest.approx(20.0 * (1 - math.exp(-t / tau)), rel=1e-12)
-    assert axis["true_position"] == pytest.approx(20.0 * (t - tau * (1 - math.exp(-t / tau))), rel=1e-12)
+    assert rig["true_velocity"] == pytest.approx(20.0 * (1 - math.exp(-t / tau)), rel=1e-12)
+    assert rig["true_position"] == pytest.approx(20.0 * (t - tau * (1 - math.exp(-t / tau))), rel=1e-12)
 
 
 def test_peak_torque_limits_acceleration_and_never_overshoots_the_speed() -> None:
     period_s = 280e-6
-    axis = axis_with(VelocityDrive(max_acceleration_rev_s2=1000.0), period_s, dac_v=5.0)
+    rig = Rig(VelocityDrive(max_acceleration_rev_s2=1000.0), period_s)
     speeds = []
     for _ in range(600):
-        step_plant(axis, period_s)
-        speeds.append(float(axis["true_velocity"]))
+        rig.step(5.0)
+        speeds.append(float(rig["true_velocity"]))
     assert np.diff(speeds).max() <= 1000.0 * period_s * (1 + 1e-9)
     assert speeds[100] == pytest.approx(101 * 1000.0 * period_s, rel=0.02)
     assert max(speeds) <= 50.0 + 1e-9
@@ -83,55 +96,54 @@ def test_peak_torque_limits_acceleration_and_never_overshoots_the_speed() -> Non
 
 def test_a_drive_shut_down_coasts() -> None:
     period_s = 280e-6
-    axis = axis_with(VelocityDrive(coast_time_constant_s=0.05), period_s, true_velocity=10.0, enabled=0)
+    rig = Rig(VelocityDrive(coast_time_constant_s=0.05), period_s, true_velocity=10.0, enabled=0)
     for _ in range(1000):
-        step_plant(axis, period_s)
-    assert axis["true_velocity"] == pytest.approx(10.0 * math.exp(-0.28 / 0.05), rel=1e-9)
-    assert axis["true_position"] == pytest.approx(10.0 * 0.05 * (1 - math.exp(-0.28 / 0.05)), rel=1e-9)
+        rig.step(0.0)
+    assert rig["true_velocity"] == pytest.approx(10.0 * math.exp(-0.28 / 0.05), rel=1e-9)
+    assert rig["true_position"] == pytest.approx(10.0 * 0.05 * (1 - math.exp(-0.28 / 0.05)), rel=1e-9)
 
 
 @pytest.mark.parametrize("period_s", PERIODS_S)
 @pytest.mark.parametrize("viscous", [0.0, 1e-9, 2e-3, 0.5])
 def test_torque_drive_without_dry_friction_is_exact(period_s: float, viscous: float) -> None:
     plant = TorqueDrive(viscous_nm_s_per_rev=viscous, coulomb_nm=0.0)
-    axis, volts = axis_with(plant, period_s), volts_sequence(60)
-    axis["true_velocity"] = 0.0
+    rig, volts = Rig(plant, period_s), volts_sequence(60)
+    rig["true_velocity"] = 0.0
     system = np.array([[0.0, 1.0], [0.0, -viscous / (TURN * plant.inertia_kg_m2)]])
     inputs = np.array([0.0, plant.torque_per_volt_nm / (TURN * plant.inertia_kg_m2)])
     steady = [abs(u) + 0.1 for u in volts]
     for u in steady:
-        axis["dac_v"] = u
-        step_plant(axis, period_s)
+        rig.step(u)
     expected = exact_linear(system, inputs, steady, period_s)
-    assert [axis["true_position"], axis["true_velocity"]] == pytest.approx(expected.tolist(), rel=1e-9)
+    assert [rig["true_position"], rig["true_velocity"]] == pytest.approx(expected.tolist(), rel=1e-9)
 
 
 @pytest.mark.parametrize("period_s", PERIODS_S)
 def test_dry_friction_stops_the_shaft_where_the_energy_is_spent_and_holds_it(period_s: float) -> None:
     plant = TorqueDrive(viscous_nm_s_per_rev=0.0, coulomb_nm=0.05)
-    axis = axis_with(plant, period_s, true_velocity=20.0, dac_v=0.1)
+    rig = Rig(plant, period_s, true_velocity=20.0)
     speeds = []
     for _ in range(int(2.0 / period_s)):
-        step_plant(axis, period_s)
-        speeds.append(float(axis["true_velocity"]))
+        rig.step(0.1)
+        speeds.append(float(rig["true_velocity"]))
     deceleration = (0.05 - 0.03) / (TURN * plant.inertia_kg_m2)
-    assert axis["true_position"] == pytest.approx(20.0**2 / (2 * deceleration), rel=1e-6)
+    assert rig["true_position"] == pytest.approx(20.0**2 / (2 * deceleration), rel=1e-6)
     assert speeds[-1] == 0.0
     assert min(speeds) >= 0.0, "the shaft never turns back"
 
 
 def test_torque_beyond_friction_reverses_the_shaft() -> None:
     period_s, plant = 280e-6, TorqueDrive(viscous_nm_s_per_rev=0.0, coulomb_nm=0.05)
-    axis = axis_with(plant, period_s, true_velocity=5.0, dac_v=-1.0)
+    rig = Rig(plant, period_s, true_velocity=5.0)
     inertia = TURN * plant.inertia_kg_m2
     stop_s = 5.0 * inertia / 0.35
-    while axis["true_velocity"] >= 0.0:
-        step_plant(axis, period_s)
+    while rig["true_velocity"] >= 0.0:
+        rig.step(-1.0)
         stop_s -= period_s
     steps = 1000
     for _ in range(steps):
-        step_plant(axis, period_s)
-    assert axis["true_velocity"] == pytest.approx(-0.25 / inertia * (steps * period_s - stop_s), rel=1e-3)
+        rig.step(-1.0)
+    assert rig["true_velocity"] == pytest.approx(-0.25 / inertia * (steps * period_s - stop_s), rel=1e-3)
 
 
 def test_peak_torque_and_load_torque() -> None:
@@ -139,9 +151,9 @@ def test_peak_torque_and_load_torque() -> None:
     plant = TorqueDrive(viscous_nm_s_per_rev=0.0, coulomb_nm=0.0, peak_torque_nm=1.0, load_torque_nm=0.4)
     inertia = TURN * plant.inertia_kg_m2
     for volts, enabled, torque in ((10.0, 1, 0.6), (-10.0, 1, -1.4), (10.0, 0, -0.4)):
-        axis = axis_with(plant, period_s, dac_v=volts, enabled=enabled)
-        step_plant(axis, period_s)
-        assert axis["true_velocity"] == pytest.approx(torque / inertia * period_s, rel=1e-12)
+        rig = Rig(plant, period_s, enabled=enabled)
+        rig.step(volts)
+        assert rig["true_velocity"] == pytest.approx(torque / inertia * period_s, rel=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -218,6 +218,7 @@ def test_a_machine_cannot_be_changed() -> None:
         Machine.default().bare = True  # type: ignore[misc]
 
 
-def test_the_analog_feedback_option_is_refused_until_it_is_there() -> None:
-    with pytest.raises(MachineError, match=r"options\.ani: found true; allowed: false"):
-        Machine.parse("[options]\nani = true\n")
+def test_an_analog_feedback_sensor_belongs_to_its_axis() -> None:
+    machine = Machine.parse("[options]\nani = true\n[axis2.ani]\nvolts_per_rev = -0.5\n")
+    assert machine.options.ani
+    assert (machine.axis1.ani.volts_per_rev, machine.axis2.ani.volts_per_rev) == (1.0, -0.5)
