@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from emulator import __version__
 from emulator.options import ServeOptions
+from emulator.scope_command import add_scope
 
 if TYPE_CHECKING:
     from emulator.server import Build
@@ -48,6 +49,10 @@ def main(arguments: Sequence[str] | None = None, *, build: Build | None = None) 
         return 0
     if parsed.command == "commands":
         return _show_commands(parsed)
+    if parsed.command == "scope":
+        from emulator.scope_command import do_scope
+
+        return do_scope(parsed, parser.error)
     options = _serve_options(parsed)
     from emulator.server import serve
 
@@ -66,6 +71,7 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     _add_serve(commands)
     _add_commands(commands)
+    add_scope(commands)
     return parser
 
 

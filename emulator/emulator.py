@@ -18,6 +18,7 @@ from emulator.controller import Controller, Output
 from emulator.engine.machine_code import OnBuild
 from emulator.machine import Machine
 from emulator.registry import ACTIONS, Value, describe_signals
+from emulator.scope import UnitScope
 
 NS_PER_S = 1_000_000_000
 
@@ -50,6 +51,8 @@ class Unit:
     def __init__(self, controller: Controller) -> None:
         self.controller = controller
         self.signals: Mapping[str, Value] = Signals(controller)
+        self.scope = UnitScope(controller)
+        """Records signals at servo rate."""
         self._unread: defaultdict[int, bytearray] = defaultdict(bytearray)
         self._log: list[Output] = []
 

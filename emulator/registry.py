@@ -13,6 +13,7 @@ from emulator.controller import Controller
 from emulator.controller import words as status
 from emulator.controller.wires.panel_commands import press, release
 from emulator.controller.wires.thumbwheel_bank import dial
+from emulator.engine.trace import Source
 
 Value = float | int | bool | str
 
@@ -21,12 +22,16 @@ NS_PER_S = 1_000_000_000
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """Something to read: ``unit`` is empty for texts and bits."""
+    """Something to read: ``unit`` is empty for texts and bits.
+
+    ``source`` is what the scope records for it at servo rate; None for what only exists between two runs of the servo.
+    """
 
     name: str
     sentence: str
     unit: str
     read: Callable[[Controller], Value]
+    source: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,26 +75,136 @@ class Action:
 
 AxisRead = Callable[[Controller, int], Value]
 
-AXIS_SIGNALS: tuple[tuple[str, str, str, AxisRead], ...] = (
-    ("position.commanded", "commanded position as reported", "counts", lambda c, i: c.engine.commanded_position(i)),
-    ("position.encoder", "encoder position as reported", "counts", lambda c, i: c.engine.encoder_position(i)),
-    ("position.true", "where the shaft really is", "rev", lambda c, i: c.engine.true_position_rev(i)),
-    ("position.error", "commanded less actual position", "counts", lambda c, i: c.engine.position_error(i)),
-    ("velocity.commanded", "velocity of the profile", "counts/s", lambda c, i: c.engine.commanded_velocity(i)),
-    ("velocity.actual", "velocity seen by the encoder", "counts/s", lambda c, i: c.engine.actual_velocity(i)),
-    ("velocity.true", "how fast the shaft really turns", "rev/s", lambda c, i: c.engine.true_velocity_rev_s(i)),
-    ("acceleration.commanded", "of the profile", "counts/s2", lambda c, i: c.engine.commanded_acceleration(i)),
-    ("servo.proportional", "SGP term", "V", lambda c, i: c.engine.terms(i)["P"]),
-    ("servo.integral", "SGI term: the integrator's state", "V", lambda c, i: c.engine.terms(i)["I"]),
-    ("servo.velocity", "SGV term", "V", lambda c, i: c.engine.terms(i)["V"]),
-    ("servo.velocity_feedforward", "SGVF term", "V", lambda c, i: c.engine.terms(i)["VF"]),
-    ("servo.acceleration_feedforward", "SGAF term", "V", lambda c, i: c.engine.terms(i)["AF"]),
-    ("servo.output", "limited control signal before the converter", "V", lambda c, i: c.engine.terms(i)["output"]),
-    ("dac", "voltage at the analogue output", "V", lambda c, i: c.engine.dac_volts(i)),
-    ("drive", "the drive is on", "", lambda c, i: c.engine.is_enabled(i)),
-    ("moving", "a profile is running", "", lambda c, i: c.engine.is_moving(i)),
-    ("status", "AS, bit 1 first", "", status.axis_status),
+
+@dataclass(frozen=True, slots=True)
+class AxisSignal:
+    """A signal every axis has; ``field``, ``minus`` and ``mask`` say what the scope records (see ``trace.Source``)."""
+
+    name: str
+    sentence: str
+    unit: str
+    read: AxisRead
+    field: str
+    minus: str | None = None
+    mask: int = 0
+
+    def of(self, axis_index: int) -> Signal:
+        """The signal of one axis."""
+        return Signal(
+            f"axis{axis_index + 1}.{self.name}",
+            f"axis {axis_index + 1}: {self.sentence}",
+            self.unit,
+            lambda controller: self.read(controller, axis_index),
+            Source(self.field, axis_index, self.minus, self.mask),
+        )
+
+
+AXIS_SIGNALS: tuple[AxisSignal, ...] = (
+    AxisSignal(
+        "position.commanded",
+        "commanded position as reported",
+        "counts",
+        lambda c, i: c.engine.commanded_position(i),
+        "commanded_counts",
+        minus="offset_counts",
+    ),
+    AxisSignal(
+        "position.actual",
+        "position of the selected feedback as reported",
+        "counts",
+        lambda c, i: c.engine.feedback_position(i),
+        "feedback_counts",
+        minus="offset_counts",
+    ),
+    AxisSignal(
+        "position.encoder",
+        "encoder position as reported",
+        "counts",
+        lambda c, i: c.engine.encoder_position(i),
+        "encoder_counts",
+        minus="encoder_offset_counts",
+    ),
+    AxisSignal(
+        "position.ani",
+        "position of the ANI feedback input as reported",
+        "counts",
+        lambda c, i: c.engine.ani_position(i),
+        "ani_counts",
+        minus="ani_offset_counts",
+    ),
+    AxisSignal(
+        "position.true",
+        "where the shaft really is",
+        "rev",
+        lambda c, i: c.engine.true_position_rev(i),
+        "true_position",
+    ),
+    AxisSignal(
+        "position.error",
+        "commanded less actual position",
+        "counts",
+        lambda c, i: c.engine.position_error(i),
+        "commanded_counts",
+        minus="feedback_counts",
+    ),
+    AxisSignal(
+        "velocity.commanded",
+        "velocity of the profile",
+        "counts/s",
+        lambda c, i: c.engine.commanded_velocity(i),
+        "commanded_velocity",
+    ),
+    AxisSignal(
+        "velocity.actual",
+        "velocity seen by the feedback over a system update",
+        "counts/s",
+        lambda c, i: c.engine.actual_velocity(i),
+        "actual_velocity",
+    ),
+    AxisSignal(
+        "velocity.true",
+        "how fast the shaft really turns",
+        "rev/s",
+        lambda c, i: c.engine.true_velocity_rev_s(i),
+        "true_velocity",
+    ),
+    AxisSignal(
+        "acceleration.commanded",
+        "acceleration of the profile",
+        "counts/s2",
+        lambda c, i: c.engine.commanded_acceleration(i),
+        "commanded_acceleration",
+    ),
+    AxisSignal("servo.proportional", "SGP term", "V", lambda c, i: c.engine.terms(i)["P"], "term_p"),
+    AxisSignal(
+        "servo.integral", "SGI term: the integrator's state", "V", lambda c, i: c.engine.terms(i)["I"], "term_i"
+    ),
+    AxisSignal("servo.velocity", "SGV term", "V", lambda c, i: c.engine.terms(i)["V"], "term_v"),
+    AxisSignal("servo.velocity_feedforward", "SGVF term", "V", lambda c, i: c.engine.terms(i)["VF"], "term_vf"),
+    AxisSignal("servo.acceleration_feedforward", "SGAF term", "V", lambda c, i: c.engine.terms(i)["AF"], "term_af"),
+    AxisSignal(
+        "servo.output",
+        "limited control signal before the converter",
+        "V",
+        lambda c, i: c.engine.terms(i)["output"],
+        "control_v",
+    ),
+    AxisSignal("dac", "voltage at the analogue output", "V", lambda c, i: c.engine.dac_volts(i), "dac_v"),
+    AxisSignal("drive", "the drive is on", "", lambda c, i: c.engine.is_enabled(i), "enabled"),
+    AxisSignal("moving", "a profile is running", "", lambda c, i: c.engine.is_moving(i), "profile_active"),
+    AxisSignal("settling", "waiting for the target zone", "", lambda c, i: c.engine.is_settling(i), "settling"),
+    AxisSignal("status", "AS, bit 1 first", "", status.axis_status, "status"),
 )
+
+
+def _status_bit(number: int) -> AxisSignal:
+    mask = 1 << (number - 1)
+    return AxisSignal(
+        f"status.{number}", f"AS bit {number}", "", lambda c, i: bool(c.engine.status(i) & mask), "status", mask=mask
+    )
+
+
+STATUS_BITS = tuple(_status_bit(number) for number in range(1, status.WORD + 1))
 
 UNIT_SIGNALS: tuple[Signal, ...] = (
     Signal("time", "virtual time since power-up of the emulator", "s", lambda c: c.now_ns / NS_PER_S),
@@ -108,19 +223,24 @@ UNIT_SIGNALS: tuple[Signal, ...] = (
 )
 
 
-def _axis_signal(axis_index: int, name: str, sentence: str, unit: str, read: AxisRead) -> Signal:
+def _wire_signal(controller: Controller, wire: str) -> Signal:
+    word, mask = controller.wiring.word(wire)
     return Signal(
-        f"axis{axis_index + 1}.{name}", f"axis {axis_index + 1}: {sentence}", unit, lambda c: read(c, axis_index)
+        f"wire.{wire}",
+        f"contact {wire} is closed (grounded)",
+        "",
+        lambda c: c.wiring.closed(wire),
+        Source(word, mask=mask),
     )
-
-
-def _wire_signal(wire: str) -> Signal:
-    return Signal(f"wire.{wire}", f"contact {wire} is closed (grounded)", "", lambda c: c.wiring.closed(wire))
 
 
 def _output_signal(number: int) -> Signal:
     return Signal(
-        f"output.{number}", f"output {number} is on", "", lambda c: c.output_functions.bits()[number - 1] == "1"
+        f"output.{number}",
+        f"output {number} is on",
+        "",
+        lambda c: c.output_functions.bits()[number - 1] == "1",
+        Source("outputs", mask=1 << (number - 1)),
     )
 
 
@@ -134,11 +254,11 @@ def describe_signals(controller: Controller) -> dict[str, Signal]:
     """Every signal a unit has, by name."""
     signals = {signal.name: signal for signal in UNIT_SIGNALS}
     for axis_index in range(controller.settings.axes):
-        for row in AXIS_SIGNALS:
-            signal = _axis_signal(axis_index, *row)
+        for row in (*AXIS_SIGNALS, *STATUS_BITS):
+            signal = row.of(axis_index)
             signals[signal.name] = signal
     for wire in controller.wiring.names:
-        signals[f"wire.{wire}"] = _wire_signal(wire)
+        signals[f"wire.{wire}"] = _wire_signal(controller, wire)
     outputs = [_output_signal(number) for number in range(1, controller.output_functions.count + 1)]
     analog = [_analog_signal(channel) for channel in range(1, len(controller.wiring.analog_volts) + 1)]
     for signal in (*outputs, *analog):

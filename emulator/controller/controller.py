@@ -101,6 +101,8 @@ class Controller:
         self.listening = True
         self.chained = False
         self.powered = False
+        self.outputs_watched = False
+        """The servo is told of every change of the outputs, for its scope."""
         self.drive_faulted = [False] * self.settings.axes
         self.gain_sets: dict[int, list[AxisGains]] = {}
         self.homing = Homing(self)
@@ -153,6 +155,8 @@ class Controller:
             line = self._lines[channel] = LineAssembler(self.machine.serial.max_command)
         for token in line.feed(data):
             self._take(token, channel)
+        if self.outputs_watched:
+            self.show_outputs()
 
     def advance(self, until_ns: int) -> None:
         """Run to a virtual time, carrying out what becomes due on the way."""
@@ -169,6 +173,12 @@ class Controller:
                 interpreter.run()
             if self.program_select.looking:
                 self.program_select.look()
+            if self.outputs_watched:
+                self.show_outputs()
+
+    def show_outputs(self) -> None:
+        """Tell the servo which outputs are on."""
+        self.engine.set_outputs(int(self.output_functions.bits()[::-1], 2))
 
     def take_output(self) -> list[Output]:
         """What has left the unit since last asked."""

@@ -228,6 +228,11 @@ class Scope:
         return np.concatenate(parts)
 
 
+def most_rows(sources: Sequence[Source]) -> int:
+    """Rows of the largest ring for these sources; memory is taken up only as they are written."""
+    return MAX_RING_WORDS // max(1, Layout.of(sources).width)
+
+
 def _check(rows: int, width: int, pre_trigger_rows: int, every: int) -> None:
     if every < 1:
         raise ValueError(f"one row every {every} samples is not possible")

@@ -84,6 +84,12 @@ class Wiring:
         """Every contact that can be closed or opened."""
         return (*self._masks, *self._input_masks)
 
+    def word(self, name: str) -> tuple[str, int]:
+        """Where the servo keeps a contact: the field of its unit record, and the bit; KeyError for an unknown name."""
+        if name in self._masks:
+            return "wires", self._masks[name]
+        return "inputs", self._input_masks[name]
+
     def closed(self, name: str) -> bool:
         """Whether a contact is closed; KeyError for a name the unit does not have."""
         if name in self._masks:
