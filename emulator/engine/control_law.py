@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .converter import OUTPUT_RANGE_V
-from .kernels import Record, kernel
+from .kernels import Record, kernel, seldom
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +113,7 @@ def closed_loop(unit: Record, axis: Record) -> float:
     return float(feedback + axis["term_vf"] + axis["term_af"] + axis["offset_v"])
 
 
-@kernel
+@seldom
 def dither(axis: Record) -> float:
     """Dither for this sample, V: a square wave that turns round every SDTFR servo samples.
 

@@ -22,7 +22,7 @@ from .events import (
     EVENT_STATUS,
     EVENT_WIRES,
 )
-from .kernels import Record, Records, kernel
+from .kernels import Record, Records, kernel, seldom
 from .plants import step_plant
 from .scope import (
     SCOPE_OFF,
@@ -61,7 +61,7 @@ def hold_still(axis: Record) -> None:
     axis["commanded_acceleration"] = 0.0
 
 
-@kernel
+@seldom
 def end_profile(axis: Record, now_ns: int) -> None:
     """Arrive exactly at the profile's end and start waiting for the target zone."""
     axis["commanded_counts"] = math.floor(axis["profile_end_counts"] + 0.5)
@@ -71,7 +71,7 @@ def end_profile(axis: Record, now_ns: int) -> None:
     axis["settle_start_ns"] = now_ns
 
 
-@kernel
+@seldom
 def follow_profile(axis: Record, segments: Records, now_ns: int) -> None:
     """Trajectory update: commanded position in whole counts, halves upwards, with the profile's velocity and
     acceleration. A profile takes effect at its start time and not before."""
@@ -95,7 +95,7 @@ def follow_profile(axis: Record, segments: Records, now_ns: int) -> None:
     axis["commanded_acceleration"] = acceleration + segment["jerk"] * t
 
 
-@kernel
+@seldom
 def shut_down_on_error(axis: Record) -> None:
     """Position error above SMPER: drive off, profile given up, AS bit 23 until the drive is enabled again."""
     axis["enabled"] = 0
@@ -224,7 +224,7 @@ def settle(axis: Record, now_ns: int) -> None:
         axis["pending_events"] |= EVENT_SETTLE_TIMEOUT
 
 
-@kernel
+@seldom
 def update_axis(unit: Record, axis: Record, now_ns: int) -> None:
     """System update of one axis, before the watches."""
     axis["actual_velocity"] = (axis["feedback_counts"] - axis["system_feedback_counts"]) * unit["system_hz"]
@@ -249,7 +249,7 @@ def collect_events(axis: Record) -> int:
     return int(fired)
 
 
-@kernel
+@seldom
 def check_wires(unit: Record) -> int:
     """WIRES if any input differs from what was last reported."""
     if unit["wires"] == unit["reported_wires"] and unit["inputs"] == unit["reported_inputs"]:
@@ -259,7 +259,7 @@ def check_wires(unit: Record) -> int:
     return EVENT_WIRES
 
 
-@kernel
+@seldom
 def system_update(unit: Record, axes: Records, watches: Records, now_ns: int) -> int:
     """Everything that happens once per system update; returns the events of all axes."""
     for axis_index in range(unit["axis_count"]):
@@ -360,7 +360,7 @@ def run_recorded(
     return run(unit, axes, plants, segments, watches, fired, until_ns)
 
 
-@kernel
+@seldom
 def advance(
     unit: Record,
     axes: Records,

@@ -7,7 +7,7 @@ of no interest there: a lane runs straight to the time asked for.
 from __future__ import annotations
 
 from .cycle import advance
-from .kernels import Records, kernel
+from .kernels import Records, kernel, seldom
 from .scope import ScopeArrays
 
 
@@ -29,7 +29,7 @@ def lane_scope(whole: ScopeArrays, lane: int, lanes: int) -> ScopeArrays:
     )
 
 
-@kernel
+@seldom
 def advance_lanes(
     units: Records,
     axes: Records,

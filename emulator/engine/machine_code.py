@@ -33,7 +33,7 @@ from typing import Any
 import numpy as np
 
 from . import cycle, lanes
-from .kernels import KERNEL_FUNCTIONS
+from .kernels import CALLED_FUNCTIONS, KERNEL_FUNCTIONS
 from .layout import AXIS, PLANT, SCOPE, SEGMENT, UNIT, WATCH, WORD_BYTES
 from .memory import Memory
 from .scope import ScopeArrays
@@ -240,7 +240,8 @@ def _compile() -> Any:
     for function in KERNEL_FUNCTIONS:
         names = {name: compiled.get(id(value), value) for name, value in function.__globals__.items()}
         copy = FunctionType(function.__code__, names, function.__name__)
-        compiled[id(function)] = numba.njit(nogil=True, error_model="numpy")(copy)
+        inline = function not in CALLED_FUNCTIONS
+        compiled[id(function)] = numba.njit(nogil=True, error_model="numpy", forceinline=inline)(copy)
     advance_one, advance_lanes, carray = compiled[id(cycle.advance)], compiled[id(lanes.advance_lanes)], numba.carray
 
     def entry(table, lane_count, until_ns):  # type: ignore[no-untyped-def]

@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .kernels import Record, kernel
+from .kernels import Record, kernel, seldom
 
 VELOCITY_DRIVE = 0
 TORQUE_DRIVE = 1
@@ -199,7 +199,7 @@ def beyond_friction(applied: float, coulomb: float) -> float:
     return 0.0
 
 
-@kernel
+@seldom
 def step_torque_drive(axis: Record, plant: Record, volts: float) -> None:
     """Advance a torque-mode drive by one step with the output held.
 

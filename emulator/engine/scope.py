@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .kernels import Floats, Record, Records, Words, kernel
+from .kernels import Floats, Record, Records, Words, kernel, seldom
 from .status import axis_status
 from .watches import holds
 
@@ -85,7 +85,7 @@ def condition_came(record: Record, words: Words, floats: Floats) -> bool:
     return came
 
 
-@kernel
+@seldom
 def triggers(scope: ScopeArrays, rows_written: int) -> bool:
     """Whether the row about to be written is the trigger's: its condition has come to hold (at once if there is none)
     and enough rows lie behind it."""
@@ -103,7 +103,7 @@ def triggers(scope: ScopeArrays, rows_written: int) -> bool:
     return True
 
 
-@kernel
+@seldom
 def refresh_status(axes: Records, axis_count: int) -> None:
     """Work out the AS words, which otherwise are only when the kernel returns."""
     for axis_index in range(axis_count):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from .events import EVENT_HOME_EDGE, EVENT_INDEX
-from .kernels import Record, kernel
+from .kernels import Record, kernel, seldom
 
 CAPTURE_NONE = 0
 CAPTURE_HOME_ON = 1
@@ -67,7 +67,7 @@ class Travel:
         }
 
 
-@kernel
+@seldom
 def operate_switches(unit: Record, axis: Record) -> None:
     """Change over the contacts of the switches that the shaft has moved onto or off."""
     position = axis["true_position"]
@@ -125,7 +125,7 @@ def capture_home(axis: Record, active: int) -> None:
         axis["pending_events"] |= EVENT_HOME_EDGE
 
 
-@kernel
+@seldom
 def capture(unit: Record, axis: Record) -> None:
     """One servo sample of an armed capture; an index pulse counts only while the home input is active."""
     active = home_active(unit, axis)

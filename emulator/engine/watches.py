@@ -7,7 +7,7 @@ instead of stopping at every system update for Python to look.
 from __future__ import annotations
 
 from .events import EVENT_VALUE
-from .kernels import Record, Records, kernel
+from .kernels import Record, Records, kernel, seldom
 
 WATCH_SLOTS = 8
 
@@ -46,7 +46,7 @@ def holds(value: float, relation: int, threshold: float) -> bool:
     return value >= threshold
 
 
-@kernel
+@seldom
 def check_watches(unit: Record, axes: Records, watches: Records) -> None:
     """Test every armed watch and disarm those that hold."""
     for slot in range(WATCH_SLOTS):

@@ -20,6 +20,7 @@ GROUPS = {
     "help": "help_time",
     "start": "start",
     "kernel": "kernel",
+    "c-loop": "c_loop",
     "controller": "controller",
     "interpreter": "interpreter",
     "round-trip": "round_trip",
