@@ -14,6 +14,7 @@ import contextlib
 import select
 import socket
 import time
+import warnings
 from types import TracebackType
 from typing import Final, Protocol
 
@@ -24,6 +25,7 @@ DEFAULT_BAUD: Final = 9600
 """8 data bits, no parity, one stop bit: what every host program of the family uses."""
 
 _CHUNK: Final = 65536
+_POLL_S: Final = 0.001
 _DELIMITERS: Final = (b"\r", b"\n", b":")
 
 
@@ -89,6 +91,38 @@ class _SerialLine:
         self._port.close()
 
 
+class _Rfc2217Line:
+    """A serial port behind RFC 2217.
+
+    pyserial's client sets the port up again, a tenth of a second each, whenever its time limit is changed; so none
+    is set and waiting is done here. It takes no limit for writing.
+    """
+
+    def __init__(self, url: str) -> None:
+        import serial
+
+        with warnings.catch_warnings():
+            # pyserial 3.5 names its thread in a way that Python 3.10 began to discourage.
+            warnings.simplefilter("ignore", DeprecationWarning)
+            self._port = serial.serial_for_url(url, baudrate=DEFAULT_BAUD, timeout=None)
+
+    def send(self, data: bytes) -> None:
+        self._port.write(data)
+
+    def receive(self, timeout_s: float) -> bytes:
+        deadline = time.monotonic() + timeout_s
+        while not self._port.in_waiting and time.monotonic() < deadline:
+            time.sleep(_POLL_S)
+        waiting = self._port.in_waiting
+        data: bytes = self._port.read(waiting)
+        if waiting and not data:
+            raise ConnectionResetError("the unit closed the connection")
+        return data
+
+    def close(self) -> None:
+        self._port.close()
+
+
 class LineClient:
     """A blocking connection to one unit; not for several threads at once."""
 
@@ -101,11 +135,14 @@ class LineClient:
 
     @classmethod
     def open(cls, url: str, *, timeout_s: float = 1.0, prompts: tuple[bytes, ...] = DEFAULT_PROMPTS) -> LineClient:
-        """Connect to `url`: `tcp://host:port`, `/dev/ttyUSB0`, `COM3`, or any other URL of pyserial's.
+        """Connect to `url`: `tcp://host:port`, `rfc2217://host:port`, `/dev/ttyUSB0`, `COM3`, or any other URL of
+        pyserial's.
 
         `timeout_s` bounds connecting and every wait for a prompt. Raises OSError (pyserial's SerialException is one)
         if the port cannot be opened, ValueError if the URL is not understood.
         """
+        if url.startswith("rfc2217://"):
+            return cls(_Rfc2217Line(url), timeout_s=timeout_s, prompts=prompts)
         if not url.startswith("tcp://"):
             return cls(_SerialLine(url, timeout_s=timeout_s), timeout_s=timeout_s, prompts=prompts)
         host, colon, port = url.removeprefix("tcp://").rpartition(":")

@@ -109,6 +109,7 @@ class Chain:
             controller.power_up()
         for controller in self.controllers[:-1]:
             controller.take_output()
+            controller.line.power_down()
 
     def receive(self, data: bytes, *, at_ns: int, channel: int) -> None:
         """Bytes from the host at a virtual time."""
@@ -155,7 +156,7 @@ class Chain:
             heard = self._renumbering[index][number].passed_on(data)[:room]
             room -= len(heard)
             if heard:
-                receiver.receive(heard, at_ns=at_ns, channel=number)
+                receiver.receive(heard, at_ns=at_ns, channel=number, passed_on=True)
 
 
 def build_chain(machine: Machine, units: int, *, on_build: OnBuild | None = None) -> Chain:
@@ -168,7 +169,7 @@ def build_chain(machine: Machine, units: int, *, on_build: OnBuild | None = None
     _check_size(units)
     if units == 1:
         return Chain([Controller(machine, on_build=on_build)])
-    return Chain([Controller(_addressed(machine, 1 + index), on_build=on_build) for index in range(units)])
+    return Chain([Controller(addressed(machine, 1 + index), on_build=on_build) for index in range(units)])
 
 
 def _check_size(units: int) -> None:
@@ -176,6 +177,7 @@ def _check_size(units: int) -> None:
         raise ValueError(f"a chain has 1 to {MAX_UNITS} units, not {units}")
 
 
-def _addressed(machine: Machine, address: int) -> Machine:
+def addressed(machine: Machine, address: int) -> Machine:
+    """The machine of a unit that keeps an address over power-off."""
     others = {name: text for name, text in machine.defaults.items() if name != "ADDR"}
     return msgspec.structs.replace(machine, defaults={"ADDR": str(address), **others})

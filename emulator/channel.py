@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 TURN_BYTES = 256
 """What one channel may have executed before the next gets its turn: about fifty commands (design choice)."""
@@ -47,6 +47,13 @@ class ControllerLike(Protocol):
     def advance(self, until_ns: int) -> None: ...
     def take_output(self) -> Sequence[OutputLike]: ...
     def detach(self, channel: int) -> None: ...
+
+
+@runtime_checkable
+class HearsOfConnections(Protocol):
+    """A unit that wants to know when a connection is made, besides when it is gone."""
+
+    def attach(self, channel: int) -> None: ...
 
 
 class Wire(Protocol):

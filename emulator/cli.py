@@ -14,7 +14,10 @@ from typing import TYPE_CHECKING, NoReturn
 
 from emulator import __version__
 from emulator.options import ServeOptions
+from emulator.recording.commands import add_replay, add_transcript, do_replay, do_transcript
 from emulator.scope_command import add_scope
+from emulator.serial_address import SerialAddress, parse_serial
+from emulator.state.command import add_state, do_state
 
 if TYPE_CHECKING:
     from emulator.server import Build
@@ -53,10 +56,23 @@ def main(arguments: Sequence[str] | None = None, *, build: Build | None = None) 
         from emulator.scope_command import do_scope
 
         return do_scope(parsed, parser.error)
+    if parsed.command == "replay":
+        return do_replay(parsed)
+    if parsed.command == "transcript":
+        return do_transcript(parsed)
+    if parsed.command == "check":
+        return _do_check(parsed)
+    if parsed.command == "state":
+        return do_state(parsed)
     options = _serve_options(parsed)
     from emulator.server import serve
 
     return serve(options, build)
+
+
+def parse_serve_options(arguments: Sequence[str]) -> ServeOptions:
+    """What `oem6250 serve ...` with these arguments would be asked to do; SystemExit for a mistake."""
+    return _serve_options(_parser().parse_args(arguments))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -72,6 +88,10 @@ def _parser() -> argparse.ArgumentParser:
     _add_serve(commands)
     _add_commands(commands)
     add_scope(commands)
+    _add_check(commands)
+    add_replay(commands)
+    add_transcript(commands)
+    add_state(commands)
     return parser
 
 
@@ -86,14 +106,23 @@ def _add_serve(commands: argparse._SubParsersAction[_Parser]) -> None:
     add("machine", nargs="?", metavar="MACHINE.toml", help="machine file (default: two wired axes)")
     add("--tcp", action="append", type=_address, metavar="HOST:PORT", help="listen here; may be repeated, port 0 picks "
         "a free one (default: 127.0.0.1:6250)")  # fmt: skip
-    add("--no-tcp", action="store_true", help="do not listen on TCP")
+    add("--telnet", action="append", type=_address, metavar="HOST:PORT", help="listen here and speak telnet first, for "
+        "people; may be repeated (default: none; --tcp understands telnet clients that speak first)")  # fmt: skip
+    add("--no-tcp", action="store_true", help="do not open the --tcp port")
+    add("--allow-remote", action="store_true", help="let --tcp and --telnet listen where other machines reach them")
     add("--pty", default="auto", metavar="PATH|auto|none", help="virtual serial port: where to put the link to it "
         "(default: auto, in your runtime directory)")  # fmt: skip
+    add("--serial", action="append", type=_serial, metavar="DEVICE[:BAUD[:FRAMING]]", help="a serial port of this "
+        "machine, like /dev/ttyUSB0:9600:8N1 or COM3:19200; may be repeated (default: none; 9600:8N1)")  # fmt: skip
+    add("--shared-line", action="store_true", help="every connection hears all the unit sends, as on a Y-cable "
+        "(default: only what it asked for)")  # fmt: skip
     add("--units", type=_units, default=1, metavar="N", help="chain N like units, addressed 1 to N, on the one line; "
         "ERRLVL1 first (default: 1)")  # fmt: skip
     add("--speed", type=_speed, default=1.0, metavar="1|N|max", help="virtual over real time (default: 1)")
-    add("--line", type=_line, default=None, metavar="instant|BAUD", help="speed of the serial line (default: instant)")
+    add("--line", type=_line, default=None, metavar="instant|BAUD", help="speed of the serial line "
+        "(default: serial.baud of the machine file, else instant)")  # fmt: skip
     add("--state", default="none", metavar="FILE|none", help="file of the non-volatile memory (default: none)")
+    add("--record", metavar="FILE", help="write the session there, for `oem6250 replay` (default: none)")
     add("--announce", metavar="-|FILE", help="once ready, write where to connect as one line of JSON")
     add("-v", dest="verbosity", action="count", default=0, help="log what happens and the traffic; -vv logs all")
     add("--version", action="version", version=f"oem6250 {__version__}")
@@ -125,6 +154,23 @@ def _show_commands(parsed: argparse.Namespace) -> int:
     return 0
 
 
+def _add_check(commands: argparse._SubParsersAction[_Parser]) -> None:
+    check = commands.add_parser(
+        "check",
+        help="whether machine files can be used",
+        description="Whether machine files can be used: one line each, what it would be or what is wrong with it.",
+        epilog="Exit status 2 if any cannot.",
+        allow_abbrev=False,
+    )
+    check.add_argument("machines", nargs="+", metavar="MACHINE.toml", help="machine file")
+
+
+def _do_check(parsed: argparse.Namespace) -> int:
+    from emulator.check import check_files
+
+    return check_files(parsed.machines)
+
+
 def _serve_options(parsed: argparse.Namespace) -> ServeOptions:
     if parsed.no_tcp and parsed.tcp:
         _parser().error("argument --no-tcp: not allowed with --tcp")
@@ -133,13 +179,18 @@ def _serve_options(parsed: argparse.Namespace) -> ServeOptions:
     return ServeOptions(
         machine=parsed.machine,
         tcp=tcp,
+        telnet=tuple(parsed.telnet or ()),
+        allow_remote=parsed.allow_remote,
         pty=pty,
         speed=parsed.speed,
         line_baud=parsed.line,
         state=None if parsed.state == "none" else parsed.state,
         announce=parsed.announce,
+        record=parsed.record,
         verbosity=parsed.verbosity,
         units=parsed.units,
+        serial=tuple(parsed.serial or ()),
+        shared_line=parsed.shared_line,
     )
 
 
@@ -150,6 +201,13 @@ def _address(text: str) -> tuple[str, int]:
     if not colon or not port.isascii() or not port.isdigit() or int(port) > 65535 or (":" in host and not bracketed):
         raise argparse.ArgumentTypeError(f"{text!r} is not HOST:PORT with a port from 0 to 65535 (IPv6: [::1]:6250)")
     return (host[1:-1] if bracketed else host), int(port)
+
+
+def _serial(text: str) -> SerialAddress:
+    try:
+        return parse_serial(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def _speed(text: str) -> float | None:
@@ -172,7 +230,7 @@ def _units(text: str) -> int:
 
 def _line(text: str) -> int | None:
     if text == "instant":
-        return None
+        return 0
     if not (text.isascii() and text.isdigit() and int(text) in BAUD_RANGE):
         raise argparse.ArgumentTypeError(f"{text!r} is neither instant nor a baud rate (110 to 921600)")
     return int(text)

@@ -47,12 +47,12 @@ ABSENT_ROWS: Final[Mapping[str, str]] = {
 }
 """Absent rows of other groups, each with its reason."""
 
-_LINE: Final = "acts with the timed serial line or a second port"
+_LINE: Final = "acts with a second port"
 _DITHER: Final = "dither comes with the servo work"
 
 STORED_ROWS: Final[Mapping[str, str]] = {
     **dict.fromkeys(("VF", "PA", "PAA", "PAD", "PADA", "PV", "PSCLA", "PSCLV", "PSCLD", "SCLMAS"), _MOTION),
-    **dict.fromkeys(("XONOFF", "LOCK", "DRPCHK"), _LINE),
+    **dict.fromkeys(("LOCK", "DRPCHK"), _LINE),
     **dict.fromkeys(("SDTAMP", "SDTFR"), _DITHER),
     **dict.fromkeys(("COMEXK", "FOLK"), "stores only: its existence is not confirmed"),
     "ANIPOL": "the ANI option is not fitted",

@@ -11,14 +11,25 @@ Everything that can be read or done from outside the wire comes from the registr
 
 from __future__ import annotations
 
+import weakref
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING
 
-from emulator.controller import Controller, Output
+from emulator.channel import OutputLike
+from emulator.controller import Controller
 from emulator.engine.machine_code import OnBuild
 from emulator.machine import Machine
 from emulator.registry import ACTIONS, Value, describe_signals
 from emulator.scope import UnitScope
+
+if TYPE_CHECKING:
+    from emulator.recording.recorded import RecordedUnit
+    from emulator.recording.recorder import Recorder
+    from emulator.state.memory import Memory
 
 NS_PER_S = 1_000_000_000
 
@@ -50,15 +61,17 @@ class Unit:
 
     def __init__(self, controller: Controller) -> None:
         self.controller = controller
+        self._wire: Controller | RecordedUnit = controller
         self.signals: Mapping[str, Value] = Signals(controller)
         self.scope = UnitScope(controller)
         """Records signals at servo rate."""
         self._unread: defaultdict[int, bytearray] = defaultdict(bytearray)
-        self._log: list[Output] = []
+        self._log: list[OutputLike] = []
+        self._memory: Memory | None = None
 
     def send(self, data: bytes, *, channel: int = HOST_CHANNEL) -> None:
         """Bytes from a host, now."""
-        self.controller.receive(data, at_ns=self.controller.now_ns, channel=channel)
+        self._wire.receive(data, at_ns=self.controller.now_ns, channel=channel)
         self._unread.setdefault(channel, bytearray())
 
     def read(self, *, channel: int = HOST_CHANNEL) -> bytes:
@@ -68,7 +81,7 @@ class Unit:
         self._unread[channel].clear()
         return data
 
-    def take_output(self) -> list[Output]:
+    def take_output(self) -> list[OutputLike]:
         """The output since last asked with its virtual times, for every channel together."""
         self._sort_output()
         taken, self._log = self._log, []
@@ -84,8 +97,21 @@ class Unit:
             raise KeyError(f"no action {action!r}; there are {', '.join(ACTIONS)}")
         ACTIONS[action].carry_out(self.controller, parameters)
 
+    def record(self, recorder: Recorder, *, unit: int) -> RecordedUnit:
+        """Write everything that goes in and out from now on into a recording, as its unit of that number."""
+        from emulator.recording.recorded import RecordedUnit
+
+        self._wire = RecordedUnit(self.controller, recorder, unit=unit)
+        return self._wire
+
+    def keep(self, memory: Memory | None) -> None:
+        """Have what the unit keeps made durable before anything it says is heard; None: no longer."""
+        self._memory = memory
+
     def _sort_output(self) -> None:
-        for output in self.controller.take_output():
+        if self._memory is not None:
+            self._memory.save()
+        for output in self._wire.take_output():
             self._log.append(output)
             channels = list(self._unread) or [HOST_CHANNEL] if output.channel is None else [output.channel]
             for channel in channels:
@@ -93,13 +119,75 @@ class Unit:
 
 
 class Emulator:
-    """Units on one virtual time.  They are powered up; the sign-on waits to be read."""
+    """Units on one virtual time.  They are powered up; the sign-on waits to be read.
 
-    def __init__(self, machine: Machine | Sequence[Machine] | None = None, *, on_build: OnBuild | None = None) -> None:
+    With ``record`` the session goes into that file (docs/recording.md): what is sent and done through the units, and
+    what they say.  ``close``, or leaving the emulator as a context manager, completes the file.
+
+    With ``state`` the units' non-volatile memory is that file (docs/state.md).  It is written before what a unit says
+    is read, and by ``close``, which also lets go of the file: another emulator on it finds everything.
+
+    Raises:
+        RecordingError: the file exists or cannot be written.
+        StateError: the state file cannot be used.
+        ValueError: the machine cannot be written as a machine file.
+    """
+
+    def __init__(
+        self,
+        machine: Machine | Sequence[Machine] | None = None,
+        *,
+        on_build: OnBuild | None = None,
+        record: str | Path | None = None,
+        state: str | Path | None = None,
+    ) -> None:
         machines = [machine or Machine.default()] if machine is None or isinstance(machine, Machine) else list(machine)
         self.units = [Unit(Controller(each, on_build=on_build)) for each in machines]
+        self._memory = None if state is None else self._open_memory(state)
+        self._finish: Callable[[], None] | None = None if record is None else self._record(record, machines)
         for unit in self.units:
             unit.controller.power_up()
+
+    def __enter__(self) -> Emulator:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, tb: TracebackType | None) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Complete the recording and the state file, if there are any."""
+        if self._finish is not None:
+            self._finish()
+        if self._memory is not None:
+            memory, self._memory = self._memory, None
+            for unit in self.units:
+                unit.keep(None)
+            try:
+                memory.save()
+            finally:
+                memory.close()
+
+    def _open_memory(self, path: str | Path) -> Memory:
+        """The state file with its contents in the units, which are not switched on yet."""
+        from emulator.state.memory import Memory
+
+        memory = Memory(path)
+        weakref.finalize(self, memory.close)
+        memory.restore([unit.controller for unit in self.units])
+        for unit in self.units:
+            unit.keep(memory)
+        return memory
+
+    def _record(self, path: str | Path, machines: Sequence[Machine]) -> Callable[[], None]:
+        """Begin a recording; what to call when the session is over."""
+        from emulator.recording.machine_text import machine_text
+        from emulator.recording.recorded import finish
+        from emulator.recording.recorder import Recorder
+        from emulator.recording.session import describe
+
+        recorder = Recorder(path, describe([machine_text(each) for each in machines], speed="virtual"))
+        weakref.finalize(self, recorder.close)
+        return partial(finish, recorder, [unit.record(recorder, unit=index) for index, unit in enumerate(self.units)])
 
     def unit(self, index: int = 0) -> Unit:
         """A unit by its place, from 0."""

@@ -132,7 +132,7 @@ def _text(value: Any) -> str:
     if isinstance(value, tuple):
         return ", ".join(str(part) for part in value) or "none"
     if isinstance(value, dict):
-        return ", ".join(f"{name} = {meaning}" for name, meaning in value.items())
+        return ", ".join(f"{name} = {meaning}" for name, meaning in value.items()) or "none"
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 

@@ -18,8 +18,10 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 
 from emulator.machine_errors import MachineError, explain
-from emulator.machine_settings import merged_settings, usual_settings
+from emulator.machine_settings import check_command_name, merged_settings, usual_settings
 from emulator.machine_tables import (
+    LOWEST_BAUD,
+    REALISTIC_TIMING,
     Axis,
     Encoder,
     EncoderInput,
@@ -96,7 +98,7 @@ class Machine(Table, frozen=True):
     ] = False
     limits: Annotated[Limits, known("field ranges", "assumed", "M")] = Limits()
     memory: Annotated[Memory, known("user memory", "documented", source="UG 74, 83")] = Memory()
-    timing: Annotated[Timing, known("how fast programs run", "assumed", "L")] = Timing()
+    timing: Annotated[Timing, known("how fast commands and programs run", "assumed", "L")] = Timing()
     servo: Annotated[Servo, known("the servo processor", "assumed", "L")] = Servo()
     encoder: Annotated[EncoderInput, known("the encoder inputs", "assumed", "L")] = EncoderInput()
     axis1: Annotated[Axis, known("what is connected to axis 1", "design")] = Axis()
@@ -123,6 +125,7 @@ class Machine(Table, frozen=True):
         """Read a machine from TOML `text`; `name` stands for the file in a MachineError."""
         raw = _toml(text, name=name)
         _settle_wiring(raw, name=name)
+        _settle_timing(raw, name=name)
         raw["defaults"] = merged_settings(raw.get("defaults", {}), file=name)
         try:
             machine = msgspec.convert(raw, cls)
@@ -130,6 +133,12 @@ class Machine(Table, frozen=True):
             raise explain(error, raw=raw, model=cls, file=name) from None
         _check_together(machine, name=name)
         return machine
+
+    def on_line(self, baud: int | None) -> Machine:
+        """The same machine with its line at ``baud`` (0: instant, None: as it is)."""
+        if baud is None:
+            return self
+        return msgspec.structs.replace(self, serial=msgspec.structs.replace(self.serial, baud=baud))
 
     @property
     def axes(self) -> tuple[Axis, Axis]:
@@ -162,7 +171,19 @@ def _settle_wiring(raw: dict[str, Any], *, name: str) -> None:
         _prefer(raw, ["axis2", "wires"], _BARE_AXIS_WIRES)
 
 
-def _prefer(raw: dict[str, Any], path: list[str], values: dict[str, str]) -> None:
+def _settle_timing(raw: dict[str, Any], *, name: str) -> None:
+    """Expand the preset under the keys that are given, and refuse times for commands that do not exist."""
+    timing = raw.get("timing")
+    if not isinstance(timing, dict):
+        return
+    if timing.get("preset") == "realistic":
+        _prefer(raw, ["timing"], REALISTIC_TIMING)
+    commands = timing.get("commands")
+    for command in commands if isinstance(commands, dict) else ():
+        check_command_name(command, table="timing.commands", file=name)
+
+
+def _prefer(raw: dict[str, Any], path: list[str], values: dict[str, Any]) -> None:
     table: Any = raw
     for step in path:
         table = table.setdefault(step, {}) if isinstance(table, dict) else None
@@ -183,7 +204,18 @@ def _conflicts(machine: Machine) -> list[tuple[str, str, str]]:
         *_rate_conflicts(machine),
         *_range_conflicts(machine),
         *_travel_conflicts(machine),
+        *_serial_conflicts(machine),
     ]
+
+
+def _serial_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
+    serial, conflicts = machine.serial, []
+    if 0 < serial.baud < LOWEST_BAUD:
+        conflicts.append(("serial.baud", str(serial.baud), f"0 (instant) or {LOWEST_BAUD} to 921,600"))
+    if not serial.buffer.xoff_at_left < serial.buffer.xon_at_left <= serial.buffer.size:
+        allowed = f"more than xoff_at_left, {serial.buffer.xoff_at_left}, and at most size, {serial.buffer.size}"
+        conflicts.append(("serial.buffer.xon_at_left", str(serial.buffer.xon_at_left), allowed))
+    return conflicts
 
 
 def _memory_conflicts(machine: Machine) -> list[tuple[str, str, str]]:

@@ -8,7 +8,7 @@ up the value in the raw data and the allowed values in the type.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from difflib import get_close_matches
 from typing import Any
 
@@ -37,7 +37,7 @@ def explain(error: msgspec.ValidationError, *, raw: dict[str, Any], model: type,
     missing, unknown = _MISSING.search(text), _UNKNOWN.search(text)
     node = _descend(inspect.type_info(model), raw, steps)
     if unknown:
-        key, allowed = [*steps, unknown[1]], _keys(node, unknown[1])
+        key, allowed = [*steps, unknown[1]], _keys(node, [*steps, unknown[1]], inspect.type_info(model))
         return MachineError(file=file, key=_dotted(key), found=_show(_value(raw, key)), allowed=allowed)
     if missing:
         child = _descend(node, _value(raw, steps), [missing[1]])
@@ -114,11 +114,31 @@ def _tags(node: Any) -> tuple[str, ...]:
     return (str(node.tag),) if node.tag else ()
 
 
-def _keys(node: Any, wrong: str) -> str:
+def _keys(node: Any, steps: list[str], top: Any) -> str:
     names = [field.encode_name for field in getattr(node, "fields", ())]
-    close = get_close_matches(wrong, names, n=1)
+    close = nearest(steps[-1], names) or _elsewhere(steps, top)
     listed = "keys " + ", ".join(names)
-    return f"{listed} (did you mean {close[0]}?)" if close else listed
+    return f"{listed} (did you mean {close}?)" if close else listed
+
+
+def nearest(wrong: str, names: Iterable[str]) -> str | None:
+    """The one of some names that somebody may have meant, if any looks like it."""
+    close = get_close_matches(wrong, names, n=1)
+    return close[0] if close else None
+
+
+def _elsewhere(steps: list[str], top: Any) -> str | None:
+    """The dotted key of a key that belongs into another table; of the same axis, if there are several."""
+    found = [path for path in _paths(top) if path.rpartition(".")[2] == steps[-1]]
+    return next((path for path in found if path.startswith(steps[0] + ".")), found[0] if found else None)
+
+
+def _paths(node: Any, path: str = "") -> Iterator[str]:
+    node = _bare(node)
+    for member in node.types if isinstance(node, inspect.UnionType) else (node,):
+        for field in getattr(_bare(member), "fields", ()):
+            yield path + field.encode_name
+            yield from _paths(field.type, path + field.encode_name + ".")
 
 
 def _allowed(node: Any) -> str:

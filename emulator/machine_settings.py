@@ -9,11 +9,12 @@ found in the file and not when the unit starts.
 from __future__ import annotations
 
 import re
+from difflib import get_close_matches
 from typing import Any, Final
 
-from emulator.machine_errors import MachineError
+from emulator.machine_errors import MachineError, nearest
 from emulator.machine_tables import Provenance
-from protocol.catalogue import CommandRow, commands
+from protocol.catalogue import CommandRow, commands, rows
 from protocol.command import parse_command
 from protocol.errors import INVALID_DATA, CommandError
 from protocol.fields import checked_number, place_mask, place_values, range_of
@@ -53,6 +54,17 @@ def merged_settings(raw: Any, *, file: str) -> dict[str, str]:
     return merged
 
 
+def check_command_name(name: str, *, table: str, file: str) -> None:
+    """MachineError, naming the nearest, for what is not the name of a command of this unit."""
+    names = [row.name for row in rows() if row.kind not in ("operator", "operand") and row.applies_to_oem6250]
+    if name in names:
+        return
+    close = get_close_matches(name.upper(), names, n=1)
+    hint = f" (did you mean {close[0]}?)" if close else ""
+    allowed = f"the name of a command, in capitals, without an axis number{hint}"
+    raise MachineError(file=file, key=f"{table}.{name}", found=repr(name), allowed=allowed)
+
+
 def read_settings(raw: Any, *, file: str) -> dict[str, str]:
     """The table `raw` as command -> field text; MachineError for what no host could set."""
     if not isinstance(raw, dict):
@@ -64,6 +76,9 @@ def _checked(key: str, value: Any, *, file: str) -> str:
     row = commands().get(key) if _COMMAND.fullmatch(key) else None
     if row is None or row.kind != "setting":
         allowed = "the name of a command that is a setting, in capitals, without an axis number"
+        settings = (name for name, other in commands().items() if other.kind == "setting")
+        if close := nearest(key.upper(), settings):
+            allowed += f" (did you mean {close}?)"
         raise MachineError(file=file, key=f"defaults.{key}", found=repr(key), allowed=allowed)
     text = _field_text(key, value, file=file)
     try:

@@ -13,7 +13,7 @@ APEX615n Installation Guide, GemCR = Gemini Command Reference, KB = Parker knowl
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Final, Literal
 
 import msgspec
 
@@ -116,16 +116,17 @@ class ErrorLevels(Table, frozen=True):
 _LEVEL_1 = ReplyForm(names=False, error_text=False, ok_prompt=False, bad_prompt=False, define_prompt=False)
 
 
+LOWEST_BAUD: Final = 110
+FASTEST_BAUD: Final = 921_600
+"""Speeds a line can have besides instant (design choice: from a teletype to the usual adapters)."""
+
+
 class InputBuffer(Table, frozen=True):
     """The command buffer behind the serial receiver, in bytes."""
 
-    size: Annotated[int, known("capacity, bytes", "assumed", "L", ge=64, acts=False)] = 2000
-    xoff_at_left: Annotated[
-        int, known("XOFF goes out when this many bytes are left", "assumed", "L", ge=0, acts=False)
-    ] = 200
-    xon_at_left: Annotated[
-        int, known("XON goes out when this many bytes are free again", "assumed", "L", ge=0, acts=False)
-    ] = 1000
+    size: Annotated[int, known("capacity, bytes; acts with a line speed", "assumed", "L", ge=64)] = 2000
+    xoff_at_left: Annotated[int, known("XOFF goes out when this many bytes are left", "assumed", "L", ge=0)] = 200
+    xon_at_left: Annotated[int, known("XON goes out when this many bytes are free again", "assumed", "L", ge=0)] = 1000
 
 
 class Serial(Table, frozen=True):
@@ -163,6 +164,26 @@ class Serial(Table, frozen=True):
             "several hosts wait for it; form assumed",
         ),
     ] = "when_done"
+    baud: Annotated[
+        int,
+        known("speed of the line, 110 to 921600 baud; 0 = instant, no wire time", "design", ge=0, le=FASTEST_BAUD),
+    ] = 0
+    framing: Annotated[
+        Literal["8N1", "8N2", "8E1", "8O1", "8E2", "8O2", "7N1", "7N2", "7E1", "7O1", "7E2", "7O2"],
+        known("data bits, parity, stop bits: how long a character takes; the data pass whole", "assumed", "H"),
+    ] = "8N1"
+    output_buffer: Annotated[
+        int,
+        known("characters waiting to be sent at which no further command is taken", "assumed", "L", ge=16),
+    ] = 1000
+    host_obeys_xoff: Annotated[
+        bool,
+        known("on a timed line the host's driver keeps XON and XOFF to itself and obeys them", "design"),
+    ] = False
+    strict_baud: Annotated[
+        bool,
+        known("a host at another baud rate (RFC 2217, real serial port) reads and writes garbage", "design"),
+    ] = False
 
 
 class InputsOutputs(Table, frozen=True):
@@ -221,12 +242,33 @@ class Memory(Table, frozen=True):
     nest_levels: Annotated[int, known("nesting of IF, loops and GOSUB", "assumed", "H", ge=1)] = 16
 
 
-class Timing(Table, frozen=True):
-    """How fast the unit carries out programs."""
+CommandMicroseconds = Annotated[int, msgspec.Meta(ge=0, le=60_000_000)]
 
+REALISTIC_TIMING: Final = {"command_us": 2000, "at_updates": True}
+"""The realistic preset (assumed L: no page gives the time of a command; design notes: handled at system updates)."""
+
+
+class Timing(Table, frozen=True):
+    """How fast the unit carries out commands and programs."""
+
+    preset: Annotated[
+        Literal["instant", "realistic"],
+        known(
+            "instant, or realistic: command_us 2000 and at_updates, so one command an update; other keys win",
+            "assumed",
+            "L",
+        ),
+    ] = "instant"
     commands_per_update: Annotated[
         int, known("commands a program carries out in one system update", "assumed", "L", ge=1)
     ] = 8
+    command_us: Annotated[
+        CommandMicroseconds, known("time a command takes before it acts and answers, us", "design")
+    ] = 0
+    at_updates: Annotated[bool, known("a command acts at the next system update after its time", "design")] = False
+    commands: Annotated[dict[str, CommandMicroseconds], known("time of single commands, us, by name", "design")] = (
+        msgspec.field(default_factory=dict)
+    )
 
 
 class UnitFactors(Table, frozen=True):

@@ -27,9 +27,9 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from itertools import count
 from queue import SimpleQueue
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
-from emulator.channel import Channel, ControllerLike, Item, OutputLike, Wire
+from emulator.channel import Channel, ControllerLike, HearsOfConnections, Item, OutputLike, Wire
 from emulator.clock import Clock, Lateness
 from emulator.logs import event_line
 
@@ -50,6 +50,17 @@ T = TypeVar("T")
 _log = logging.getLogger("oem6250.engine")
 
 
+class MemoryLike(Protocol):
+    """Non-volatile memory in a file, on the engine thread; see `emulator.state.memory.Memory`."""
+
+    def run(
+        self, *, post: Callable[[Callable[[], None]], None], release: Callable[[int, Sequence[OutputLike]], None]
+    ) -> None: ...
+    def hold_back(self, line_index: int, outputs: Sequence[OutputLike]) -> Sequence[OutputLike]: ...
+    def holds(self, line_index: int) -> bool: ...
+    def finish(self) -> None: ...
+
+
 class _Unit:
     """A controller, its channels, and how often it has failed of late."""
 
@@ -68,13 +79,24 @@ class _Unit:
 class EngineThread:
     """Runs `controllers` to the clock's time and moves their bytes. Start it once, stop it once.
 
-    `on_crash` is called on the engine thread if the thread itself, not a controller, fails.
+    `on_crash` is called on the engine thread if the thread itself, not a controller, fails. With `shared_line` every
+    connection of a unit hears everything the unit sends. With `memory` output waits until what precedes it is durable.
     """
 
     def __init__(
-        self, controllers: Sequence[ControllerLike], clock: Clock, *, on_crash: Callable[[], None] = lambda: None
+        self,
+        controllers: Sequence[ControllerLike],
+        clock: Clock,
+        *,
+        on_crash: Callable[[], None] = lambda: None,
+        shared_line: bool = False,
+        memory: MemoryLike | None = None,
     ) -> None:
         self.clock = clock
+        self._memory = memory
+        if memory is not None:
+            memory.run(post=self._post, release=self._release)
+        self._shared_line = shared_line
         self._units = [_Unit(index, controller) for index, controller in enumerate(controllers)]
         self._inbox: SimpleQueue[Callable[[], None]] = SimpleQueue()
         self._bell, self._ring = socket.socketpair()
@@ -158,6 +180,18 @@ class EngineThread:
         self._stop_reading(channel)
         channel.waiting.append(lambda: self._detach(channel, done))
 
+    def unplug(self, channel: Channel) -> None:
+        """The wire has lost its descriptors for a while; call it while it still names them.
+
+        What waits is executed, half a command after it is dropped, and the channel stays attached.
+        """
+        self._stop_reading(channel)
+        channel.waiting.append(lambda: self.forget(channel))
+
+    def replug(self, channel: Channel) -> None:
+        """An unplugged wire has descriptors again; to be called in the channel's turn (`put`)."""
+        self._read(channel)
+
     def forget(self, channel: Channel) -> None:
         """Drop half a command of this channel, which stays attached."""
         self._guarded(self._units[channel.unit_index], channel, b"", self._detach_controller)
@@ -174,6 +208,9 @@ class EngineThread:
                     self._tick_if_due()
                 self._send_out()
             self._send_out()
+            if self._memory is not None:
+                self._memory.finish()
+                self._send_out()
         except Exception:
             _log.critical(event_line("engine thread failed"), exc_info=True)
             self._on_crash()
@@ -229,6 +266,9 @@ class EngineThread:
         channel.waiting.append(item)
 
     def _take_turn(self, channel: Channel) -> None:
+        if not channel.waiting:
+            # Detached since it was put in line: a lingering connection that was let go and turned out to be lost.
+            return
         if isinstance(channel.waiting[0], bytes) and self._full(channel):
             self._stop_reading(channel)
             self._held.append(channel)
@@ -310,8 +350,13 @@ class EngineThread:
         except Exception:
             self._failed(unit, channel, data)
             return
+        if self._memory is not None:
+            outputs = self._memory.hold_back(unit.index, outputs)
         if outputs:
             self._deliver(unit, outputs)
+
+    def _release(self, unit_index: int, outputs: Sequence[OutputLike]) -> None:
+        self._deliver(self._units[unit_index], outputs)
 
     def _failed(self, unit: _Unit, channel: Channel | None, data: bytes) -> None:
         now_ns = time.monotonic_ns()
@@ -329,7 +374,7 @@ class EngineThread:
             for output in outputs:
                 self._note("sent", unit, output.channel, output.data, output.at_ns)
         for output in outputs:
-            for number in unit.channels if output.channel is None else (output.channel,):
+            for number in unit.channels if output.channel is None or self._shared_line else (output.channel,):
                 channel = unit.channels.get(number)
                 if channel is not None:
                     self._outgoing.setdefault(channel, []).append(output.data)
@@ -348,7 +393,10 @@ class EngineThread:
     # The end of channels, calls and the thread.
 
     def _attach_here(self, channel: Channel) -> None:
-        self._units[channel.unit_index].channels[channel.number] = channel
+        unit = self._units[channel.unit_index]
+        unit.channels[channel.number] = channel
+        if isinstance(unit.controller, HearsOfConnections):
+            unit.controller.attach(channel.number)
         self._read(channel)
 
     def _read(self, channel: Channel) -> None:
@@ -367,8 +415,11 @@ class EngineThread:
     def _release_lingering(self) -> None:
         """Let go of half-closed connections whose unit has nothing more to say, and of the oldest if they are many."""
         for channel in list(self._lingering):
-            if len(self._lingering) > MAX_LINGERING or not self._units[channel.unit_index].busy:
+            if len(self._lingering) > MAX_LINGERING or not self._has_more_to_say(self._units[channel.unit_index]):
                 self._detach(channel, channel.on_finished or (lambda: None))
+
+    def _has_more_to_say(self, unit: _Unit) -> bool:
+        return unit.busy or (self._memory is not None and self._memory.holds(unit.index))
 
     def _detach(self, channel: Channel, done: Callable[[], None]) -> None:
         self._send_out()

@@ -70,7 +70,11 @@ class Action:
             fits = isinstance(value, (int, float) if kind is float else kind)
             if not fits or (isinstance(value, bool) and kind is not bool):
                 raise TypeError(f"{self.name}: {name} must be {kind.__name__}, not {value!r}")
-        self.function(controller, **values)
+        if controller.around_action is None:
+            self.function(controller, **values)
+            return
+        with controller.around_action(self.name, values):
+            self.function(controller, **values)
 
 
 AxisRead = Callable[[Controller, int], Value]
@@ -218,6 +222,12 @@ UNIT_SIGNALS: tuple[Signal, ...] = (
         "outputs.sinking", "outputs that sink current, after OUTLVL", "", lambda c: c.output_functions.sinking_bits()
     ),
     Signal("status.user", "US, bit 1 first", "", status.user_status),
+    Signal("line.received", "have reached the unit", "characters", lambda c: c.line.received),
+    Signal("line.sent", "have left the unit", "characters", lambda c: c.line.sent),
+    Signal("line.overruns", "lost in a full input buffer (timed line)", "characters", lambda c: c.line.overruns),
+    Signal("line.buffered", "in the input buffer (timed line)", "characters", lambda c: c.line.buffered),
+    Signal("line.held", "a host's XOFF holds the unit's output", "", lambda c: c.line.held),
+    Signal("line.holds_hosts", "the unit has sent XOFF and not yet XON (timed line)", "", lambda c: c.line.holds_hosts),
     Signal("panel.display", "the operator panel's two lines of 40 characters", "", lambda c: "\n".join(c.panel.text)),
     Signal("panel.leds", "the operator panel's lamps, first lamp first", "", lambda c: c.panel.leds),
 )
@@ -283,6 +293,10 @@ def _restore_power(controller: Controller) -> None:
         controller.power_up()
 
 
+def _damage_memory(controller: Controller) -> None:
+    controller.memory_damaged = True
+
+
 def _advance_time(controller: Controller, seconds: float) -> None:
     controller.advance(controller.now_ns + round(seconds * NS_PER_S))
 
@@ -320,6 +334,12 @@ ACTIONS: Mapping[str, Action] = {
         ),
         Action("cut_power", "switch the unit off; its motors coast", (), _cut_power),
         Action("restore_power", "switch the unit on; it signs on", (), _restore_power),
+        Action(
+            "damage_memory",
+            "spoil the non-volatile memory: the next power-up finds a bad checksum, clears it and sets SS bit 22",
+            (),
+            _damage_memory,
+        ),
         Action(
             "advance_time",
             "let virtual time pass in this unit",

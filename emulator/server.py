@@ -15,10 +15,10 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from emulator.channel import ControllerLike
 from emulator.clock import Clock
@@ -26,6 +26,9 @@ from emulator.logs import event_line, set_up_logging
 from emulator.options import ServeOptions
 from emulator.pacing import EngineThread
 from emulator.ports import PortError, TcpPort
+
+if TYPE_CHECKING:
+    from emulator.state.memory import Memory
 
 _log = logging.getLogger("oem6250.server")
 Build = Callable[[ServeOptions], Sequence[ControllerLike]]
@@ -46,15 +49,33 @@ def serve(options: ServeOptions, build: Build | None = None) -> int:
     """Serve until a signal. Exit status: 0, 1 after a crash of the engine thread, 2 for a user's mistake."""
     set_up_logging(options.verbosity)
     try:
-        with asyncio.Runner(loop_factory=asyncio.SelectorEventLoop) as runner:
-            return runner.run(Server(options, build or build_controllers).run())
+        with _memory(options.state if build is None else None) as memory:
+            server = Server(options, build or partial(build_controllers, memory=memory), memory)
+            with asyncio.Runner(loop_factory=asyncio.SelectorEventLoop) as runner:
+                return runner.run(server.run())
     except (PortError, UserError) as error:
         print(f"oem6250: {error}", file=sys.stderr)
         return 2
 
 
-def build_controllers(options: ServeOptions) -> Sequence[ControllerLike]:
-    """The machine of the options, or a chain of several like it on the one line."""
+@contextlib.contextmanager
+def _memory(path: str | None) -> Iterator[Memory | None]:
+    """The non-volatile memory in a file, if there is to be one."""
+    if path is None:
+        yield None
+        return
+    from emulator.state.memory import Memory, StateError
+
+    try:
+        memory = Memory(path)
+    except StateError as error:
+        raise UserError(f"--state {error}") from None
+    with memory:
+        yield memory
+
+
+def build_controllers(options: ServeOptions, memory: Memory | None = None) -> Sequence[ControllerLike]:
+    """The machine of the options, or a chain of several like it on the one line, with what `memory` has of them."""
     from emulator.chain import build_chain
     from emulator.machine import Machine, MachineError
 
@@ -62,7 +83,13 @@ def build_controllers(options: ServeOptions) -> Sequence[ControllerLike]:
         machine = Machine.load(Path(options.machine)) if options.machine else Machine.default()
     except MachineError as error:
         raise UserError(str(error)) from None
-    chain = build_chain(machine, options.units, on_build=_say)
+    chain = build_chain(machine.on_line(options.line_baud), options.units, on_build=_say)
+    if memory is not None:
+        memory.restore([chain])
+        if options.record is not None:
+            from emulator.recording.session import stored_memory
+
+            memory.at_start = stored_memory(chain)
     chain.power_up()
     return [chain if options.units > 1 else chain.controllers[0]]
 
@@ -70,12 +97,17 @@ def build_controllers(options: ServeOptions) -> Sequence[ControllerLike]:
 class Server:
     """One running emulator. `run` returns when it was told to stop."""
 
-    def __init__(self, options: ServeOptions, build: Build) -> None:
+    def __init__(self, options: ServeOptions, build: Build, memory: Memory | None = None) -> None:
         self._options = options
+        self._memory = memory
         self._build = build
         self._stop = asyncio.Event()
         self._tcp: list[TcpPort] = []
         self._pty: Any = None
+        self._serial: list[Any] = []
+        self._serving: tuple[EngineThread, Sequence[ControllerLike]] | None = None
+        self._had_terminal = _has_terminal()
+        self._end_recording: Callable[[], None] = lambda: None
         self._status = 0
 
     async def run(self) -> int:
@@ -93,20 +125,38 @@ class Server:
         return self._status
 
     def _ports(self) -> list[_Port]:
-        return [*self._tcp, *([self._pty] if self._pty else [])]
+        return [*self._tcp, *([self._pty] if self._pty else []), *self._serial]
 
     def _open_ports(self) -> None:
-        for host, port in self._options.tcp:
-            self._tcp.append(TcpPort(host, port))
+        options = self._options
+        for host, port in options.tcp:
+            self._tcp.append(TcpPort(host, port, allow_remote=options.allow_remote))
+        for host, port in options.telnet:
+            self._tcp.append(TcpPort(host, port, negotiate=True, allow_remote=options.allow_remote))
         if self._options.pty is not None:
             self._pty = _open_pty(self._options.pty)
+        for address in self._options.serial:
+            from emulator.ports.serial_port import SerialPort
+
+            self._serial.append(SerialPort(address))
 
     def _handle_signals(self, loop: asyncio.AbstractEventLoop) -> None:
         for name in ("SIGINT", "SIGTERM", "SIGHUP"):
             if hasattr(signal, name):
                 # The event loop of Windows has no signal handlers; there Ctrl-C ends the process.
                 with contextlib.suppress(NotImplementedError):
-                    loop.add_signal_handler(getattr(signal, name), self._stop.set)
+                    loop.add_signal_handler(
+                        getattr(signal, name), self._hang_up if name == "SIGHUP" else self._stop.set
+                    )
+
+    def _hang_up(self) -> None:
+        """Read the machine file again, or end: without a file, and when the terminal was closed."""
+        if self._options.machine is None or (self._had_terminal and not _has_terminal()):
+            self._stop.set()
+        elif self._serving is not None:
+            from emulator.reload import reload_machine_file
+
+            reload_machine_file(Path(self._options.machine), *self._serving, line_baud=self._options.line_baud)
 
     async def _build_or_stop(self, loop: asyncio.AbstractEventLoop) -> Sequence[ControllerLike] | None:
         """The controllers, or None if a signal came first (the thread that still builds dies with the process)."""
@@ -131,20 +181,31 @@ class Server:
             loop.call_soon_threadsafe(built.set_result, controllers)
 
     async def _serve(self, loop: asyncio.AbstractEventLoop, controllers: Sequence[ControllerLike]) -> None:
+        strict_baud = _strict_baud(controllers)
+        if self._options.record is not None:
+            controllers, self._end_recording = _record(self._options, controllers, self._memory)
         start_ns = max((controller.now_ns for controller in controllers), default=0)
         clock = Clock(self._options.speed, start_ns=start_ns, report=self._too_slow)
-        engine = EngineThread(controllers, clock, on_crash=partial(_soon, loop, self._crashed))
+        crashed = partial(_soon, loop, self._crashed)
+        engine = EngineThread(
+            controllers, clock, on_crash=crashed, shared_line=self._options.shared_line, memory=self._memory
+        )
+        for strict in (*self._tcp, *self._serial):
+            strict.strict_baud = strict_baud
         for port in self._ports():
             port.serve(loop, engine)
         engine.start()
+        self._serving = (engine, controllers)
         self._tell()
         try:
             await self._stop.wait()
         finally:
             for port in self._ports():
                 port.stop_accepting()
-            stopped = engine.stop()
+            stopped = engine.stop() if self._memory is None else engine.stop(self._memory.stop_patience_s)
             _log.info(event_line("stopped", **engine.lateness()._asdict()))
+            if stopped:
+                self._end_recording()
         if not stopped:
             self._leave_at_once()
 
@@ -164,28 +225,66 @@ class Server:
 
     # What is said once it runs.
 
-    def _addresses(self) -> list[str]:
-        return [address for port in self._tcp for address in port.addresses]
+    def _addresses(self, *, negotiate: bool = False) -> list[str]:
+        return [address for port in self._tcp if port.negotiate == negotiate for address in port.addresses]
 
     def _tell(self) -> None:
         options = self._options
-        if options.line_baud is not None:
-            _say(f"--line {options.line_baud}: wire time is not emulated yet, replies leave at once")
-        if options.state is not None:
-            _say(f"--state {options.state}: nothing is kept over a restart yet, memory starts empty")
+        if remote := [address for port in self._tcp for address in port.remote_addresses]:
+            _say(f"--allow-remote: whoever reaches {', '.join(remote)} commands the unit; there is no password")
         if options.announce is not None:
             _announce(options.announce, self._announcement())
         else:
-            _say_hints(self._addresses(), self._pty and str(self._pty.path))
+            telnet = self._addresses(negotiate=True)
+            serial = [port.name for port in self._serial]
+            _say_hints(self._addresses(), telnet=telnet, pty=self._pty and str(self._pty.path), serial=serial)
 
     def _announcement(self) -> str:
         speed = "max" if self._options.speed is None else self._options.speed
         pty = str(self._pty.path) if self._pty else None
-        return json.dumps({"tcp": self._addresses(), "pty": pty, "pid": os.getpid(), "speed": speed})
+        told: dict[str, object] = {"tcp": self._addresses(), "pty": pty, "pid": os.getpid(), "speed": speed}
+        if telnet := self._addresses(negotiate=True):
+            told["telnet"] = telnet
+        if self._serial:
+            told["serial"] = [port.address.device for port in self._serial]
+        return json.dumps(told)
+
+
+def _strict_baud(controllers: Sequence[ControllerLike]) -> int | None:
+    """The unit's baud rate, if hosts at another one shall not understand it; None if all may."""
+    chain: Any = controllers[0] if controllers else None
+    machine = getattr(getattr(chain, "controllers", [chain])[0], "machine", None)
+    if machine is None or not machine.serial.strict_baud:
+        return None
+    from emulator.ports.baud import unit_baud
+
+    return unit_baud(machine)
+
+
+def _record(
+    options: ServeOptions, controllers: Sequence[ControllerLike], memory: Memory | None
+) -> tuple[Sequence[ControllerLike], Callable[[], None]]:
+    """The units to serve, recorded, and what to call when they have stopped."""
+    from emulator.recording import RecordingError
+    from emulator.recording.serving import record
+
+    try:
+        return record(options, controllers, state=None if memory is None else memory.at_start)
+    except RecordingError as error:
+        raise UserError(f"--record {error}") from None
 
 
 def _soon(loop: asyncio.AbstractEventLoop, function: Callable[[], None]) -> None:
     loop.call_soon_threadsafe(function)
+
+
+def _has_terminal() -> bool:
+    """Whether the process belongs to a terminal (a service does not)."""
+    try:
+        os.close(os.open("/dev/tty", os.O_RDWR | os.O_NOCTTY))
+    except OSError:
+        return False
+    return True
 
 
 def _open_pty(link: str) -> Any:
@@ -215,12 +314,19 @@ def _say(message: str) -> None:
     print(f"oem6250: {message}", file=sys.stderr, flush=True)
 
 
-def _say_hints(addresses: Sequence[str], pty: str | None) -> None:
-    """Where to connect and what to type first; for a person, since programs use --announce."""
+def _say_hints(addresses: Sequence[str], *, telnet: Sequence[str], pty: str | None, serial: Sequence[str] = ()) -> None:
+    """Where to connect and what to type first; for a person, since programs use --announce.
+
+    The dash before the port number has the telnet of Unix speak first, without which it would show its own echo
+    beside the unit's.
+    """
     lines = ["OEM6250 is up; Ctrl-C ends it."]
     if pty:
         lines.append(f"  serial port   {pty}   (any baud rate; try: python3 -m serial.tools.miniterm --eol CR {pty})")
-    lines += [f"  TCP           {address}   (try: telnet {address.rpartition(':')[0].strip('[]')} "
-              f"{address.rpartition(':')[2]})" for address in addresses]  # fmt: skip
+    lines += [f"  serial port   {name}   (your host is on the other end of its cable)" for name in serial]
+    for name, places, dash in (("TCP   ", addresses, "-"), ("telnet", telnet, "")):
+        for host, _, port in (address.rpartition(":") for address in places):
+            command = f"telnet {'-- ' if dash else ''}{host.strip('[]')} {dash}{port}"
+            lines.append(f"  {name}        {host}:{port}   (try: {command})")
     lines.append("  then type     DRIVE11  D4000  GO1  1TPE   each with Enter: axis 1 makes one revolution")
     print("\n".join(lines), file=sys.stderr, flush=True)

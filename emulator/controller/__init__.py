@@ -4,7 +4,7 @@
 the axes.  A controller knows nothing of ports.
 """
 
-from emulator.controller import communications, faults, reports, timing
+from emulator.controller import communications, faults, line, reports, timing
 from emulator.controller.controller import Controller
 from emulator.controller.motion import gain_sets, go, homing, jogging, joystick, limits, servo, stopping
 from emulator.controller.output import Output
@@ -26,7 +26,7 @@ from emulator.controller.wires import (
 )
 
 COMMAND_MODULES = (
-    *(communications, faults, reports, timing),
+    *(communications, faults, line, reports, timing),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
     *(debugging, flow, listings, on_conditions, program_select, program_store),
     *(data_programs, reading, timers, variable_store, writing),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 
+from emulator.controller.changes import Changes
 from emulator.controller.settings import Settings
 from emulator.engine import (
     AnalogSensor,
@@ -21,7 +22,7 @@ from emulator.machine import TorqueDrive as TorqueDriveTable
 from emulator.machine import VelocityDrive as VelocityDriveTable
 
 
-def build_settings(machine: Machine) -> Settings:
+def build_settings(machine: Machine, changes: Changes) -> Settings:
     """The settings store with the machine's power-up defaults and ranges."""
     accel = machine.limits.accel
     return Settings(
@@ -29,6 +30,7 @@ def build_settings(machine: Machine) -> Settings:
         acceleration_range=(Decimal(str(accel.minimum)), Decimal(str(accel.maximum))),
         ani_fitted=machine.options.ani,
         lenient_masks=machine.lenient_masks,
+        changes=changes,
     )
 
 

@@ -7,22 +7,26 @@ same bytes leave at the same times.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager
 from dataclasses import replace
 
-from emulator.controller import dispatch, words
+from emulator.controller import dispatch, nonvolatile, words
 from emulator.controller.alarms import Alarms
 from emulator.controller.build import build_engine, build_settings, rates_in_force
+from emulator.controller.changes import KEPT_COMMANDS, Changes
 from emulator.controller.communications import answers_to, framing_in_force, is_neighbours_reply
 from emulator.controller.dispatch import handles
 from emulator.controller.faults import Faults
 from emulator.controller.interpreter import Interpreter
+from emulator.controller.line import InstantLine, build_line
 from emulator.controller.motion.gain_sets import AxisGains
 from emulator.controller.motion.homing import Homing
 from emulator.controller.motion.jogging import Jogging
 from emulator.controller.motion.joystick import Joystick
 from emulator.controller.motion.pausing import Pausing
 from emulator.controller.motion.stopping import end_of_travel, stop_axes
-from emulator.controller.output import Output, Transmitter
+from emulator.controller.output import Output
 from emulator.controller.programs.debugging import Debugging
 from emulator.controller.programs.on_conditions import OnConditions
 from emulator.controller.programs.program_select import ProgramSelect, security_locked
@@ -46,12 +50,12 @@ from emulator.engine.machine_code import OnBuild
 from emulator.machine import Machine
 from protocol.command import Command, VariableReference, parse_command
 from protocol.errors import CommandError
-from protocol.line import LineAssembler, Token, TokenKind
+from protocol.line import XOFF, XON, LineAssembler, Token, TokenKind
 from protocol.reply import Framing
 from protocol.status import AxisStatus, ErrorStatus
 
-NONVOLATILE_SETTINGS = ("STARTP", "ADDR", "CMDDIR", "ENCPOL", "DRPCHK", "MEMORY")
-"""Settings that survive RESET and power-off (6K list of the knowledge base, assumed M for the 6000)."""
+AroundAction = Callable[[str, Mapping[str, float | int | bool | str]], AbstractContextManager[None]]
+"""Who wants to know of actions from outside: gets name and parameters, and is entered while one is carried out."""
 
 COMMAND_WHILE_SILENT = "E"
 """The only command a unit obeys after E0."""
@@ -62,10 +66,12 @@ class Controller:
 
     def __init__(self, machine: Machine, *, on_build: OnBuild | None = None) -> None:
         self.machine = machine
-        self.settings = build_settings(machine)
+        self.changes = Changes()
+        self.settings = build_settings(machine, self.changes)
         self.engine = build_engine(machine, self.settings, on_build)
         self.wiring = Wiring(self.engine, machine)
         self.alarms = Alarms()
+        self.line = build_line(self)
         self.inputs = Inputs(self)
         self.input_functions = InputFunctions(self)
         self.output_functions = OutputFunctions(self)
@@ -83,6 +89,7 @@ class Controller:
             max_programs=machine.memory.programs,
             max_nesting=machine.memory.nest_levels,
             max_labels=machine.memory.labels,
+            changes=self.changes,
         )
         self.debugging = Debugging()
         self.on_conditions = OnConditions()
@@ -91,6 +98,7 @@ class Controller:
             patterns=machine.memory.varb,
             texts=machine.memory.vars,
             text_length=machine.memory.string_characters,
+            changes=self.changes,
         )
         self.data_programs = DataPrograms(self)
         self.timer = Timer()
@@ -103,6 +111,11 @@ class Controller:
         self.powered = False
         self.outputs_watched = False
         """The servo is told of every change of the outputs, for its scope."""
+        self.around_action: AroundAction | None = None
+        self.memory_damaged = False
+        """Non-volatile memory will be found bad at the next power-up."""
+        self.memory_lost = False
+        """It was at the last one (SS bit 22)."""
         self.drive_faulted = [False] * self.settings.axes
         self.gain_sets: dict[int, list[AxisGains]] = {}
         self.homing = Homing(self)
@@ -110,7 +123,8 @@ class Controller:
         self.joystick = Joystick(self)
         self._enable_lost = False
         self._lines: dict[int, LineAssembler] = {}
-        self._transmitter = Transmitter()
+        self._transmitter = self.line.transmitter
+        self._instant = self.line if isinstance(self.line, InstantLine) else None
         dispatch.apply_all(self)
 
     # The face towards the engine thread, tests and recordings.
@@ -124,15 +138,16 @@ class Controller:
     def busy(self) -> bool:
         """Motion, dwell, wait, program or debounce under way: the next output or effect may come by itself."""
         moving = any(self.engine.is_moving(axis_index) for axis_index in range(self.settings.axes))
-        return moving or self.interpreter.busy or self.alarms.pending
+        return moving or self.interpreter.busy or self.alarms.pending or self.line.busy
 
     def input_full(self, channel: int) -> bool:
         """So many commands of this connection wait that more of its input should stay on the wire."""
-        return self.interpreter.full(channel)
+        return self.interpreter.full(channel) or self.line.full(channel)
 
     def power_up(self) -> None:
         """Switch on: volatile settings at their defaults, sign-on sent, start-up program begun."""
         self.powered = True
+        self._check_memory()
         self._start()
         self.interpreter.run()
 
@@ -143,13 +158,27 @@ class Controller:
         self.program_select.leave()
         self.powered = False
         self._lines.clear()
+        self.line.power_down()
 
-    def receive(self, data: bytes, *, at_ns: int, channel: int) -> None:
-        """Bytes from a connection at a virtual time (not before ``now_ns``)."""
+    def receive(self, data: bytes, *, at_ns: int, channel: int, passed_on: bool = False) -> None:
+        """Bytes from a connection at a virtual time (not before ``now_ns``).
+
+        On a timed line that is when the first of them begins; ``passed_on`` says it is when it ends, because another
+        unit of a chain has sent it.
+        """
         if at_ns > self.engine.time_ns:
             self.advance(at_ns)
-        if not self.powered:
-            return
+        if self._instant is None:
+            self.line.receive(data, channel, self.line.began_ns(at_ns) if passed_on else self.engine.time_ns)
+        elif self.powered:
+            self._instant.received += len(data)
+            if XOFF in data or XON in data:
+                self._instant.hear_apart(data, channel)
+            else:
+                self.hear(data, channel)
+
+    def hear(self, data: bytes, channel: int) -> None:
+        """Characters have reached the unit: echo them, and act on the commands they complete."""
         line = self._lines.get(channel)
         if line is None:
             line = self._lines[channel] = LineAssembler(self.machine.serial.max_command)
@@ -160,9 +189,11 @@ class Controller:
 
     def advance(self, until_ns: int) -> None:
         """Run to a virtual time, carrying out what becomes due on the way."""
-        engine, interpreter, alarms = self.engine, self.interpreter, self.alarms
+        engine, interpreter, alarms, line = self.engine, self.interpreter, self.alarms, self.line
+        if line.holds_hosts:
+            line.look()
         while engine.time_ns < until_ns:
-            look_again_ns = min(interpreter.look_again_ns, alarms.next_ns)
+            look_again_ns = min(interpreter.look_again_ns, alarms.next_ns, line.next_ns)
             events = engine.run(min(until_ns, look_again_ns))
             if engine.time_ns >= alarms.next_ns:
                 alarms.carry_out(engine.time_ns)
@@ -173,6 +204,8 @@ class Controller:
                 interpreter.run()
             if self.program_select.looking:
                 self.program_select.look()
+            if line.holds_hosts or engine.time_ns >= line.next_ns:
+                line.carry_out(engine.time_ns)
             if self.outputs_watched:
                 self.show_outputs()
 
@@ -182,11 +215,24 @@ class Controller:
 
     def take_output(self) -> list[Output]:
         """What has left the unit since last asked."""
-        return self._transmitter.take()
+        return self.line.take()
 
     def detach(self, channel: int) -> None:
-        """A connection is gone: half a command of it is forgotten, everything else goes on."""
+        """A connection is gone: half a command of it is forgotten, everything else goes on.
+
+        What a program it started still has to say goes to everyone.
+        """
+        self.line.forget(channel)
+
+    def forget_line(self, channel: int) -> None:
+        """All that a connection which is gone has sent has been heard."""
         self._lines.pop(channel, None)
+        self.interpreter.forget_channel(channel)
+
+    @property
+    def half_typed(self) -> int:
+        """Characters of commands that are not complete."""
+        return sum(line.pending for line in self._lines.values())
 
     # What handlers and the interpreter use.
 
@@ -372,8 +418,13 @@ class Controller:
         self.interpreter.abandon()
         self.programs.abandon_definition()
 
+    def _check_memory(self) -> None:
+        self.memory_lost, self.memory_damaged = self.memory_damaged, False
+        if self.memory_lost:
+            nonvolatile.clear(self)
+
     def _start(self) -> None:
-        self.settings.reset(keep=NONVOLATILE_SETTINGS)
+        self.settings.reset(keep=KEPT_COMMANDS)
         self.faults = Faults()
         self.on_conditions = OnConditions()
         self.timer = Timer()

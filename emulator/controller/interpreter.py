@@ -25,12 +25,13 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from emulator.controller import dispatch
+from emulator.controller.command_times import CommandTimes
 from emulator.controller.faults import branch_abandons
 from emulator.controller.programs.execution import Cause
 from emulator.controller.programs.preparation import OPENERS, Prepared
 from emulator.controller.programs.runner import Runner
 from emulator.controller.programs.typed_block import TypedBlock
-from emulator.controller.waits import NEVER, ConditionWait, Held, MotionWait, UpdateWait, Wait
+from emulator.controller.waits import NEVER, ConditionWait, Held, MotionWait, OutputWait, UpdateWait, Wait
 from protocol.command import Command, addressed_unit, is_immediate_text, parse_command
 from protocol.errors import (
     INVALID_CONDITIONS,
@@ -58,6 +59,8 @@ class Entry:
     error: CommandError | None
     channel: int | None
     prompted: bool
+    taken_up: bool = False
+    """Its time has begun (``[timing]``)."""
 
     @property
     def size(self) -> int:
@@ -70,7 +73,6 @@ class Interpreter:
 
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
-        self._prompt_per_command = controller.machine.serial.prompt_per == "command"
         self._buffer: deque[Entry] = deque()
         self._buffered_characters: Counter[int | None] = Counter()
         self._execution = controller.programs.execution
@@ -85,6 +87,11 @@ class Interpreter:
         self._at_break_point = False
         self.immediate_now = False
         self.channel: int | None = None
+        self._times = CommandTimes(controller.machine.timing)
+        self._immediate_done_ns = 0
+        self.careful = False
+        """Commands may have to wait for their time or for the line."""
+        self.mind_the_line()
 
     # State others look at.
 
@@ -123,6 +130,15 @@ class Interpreter:
         """More commands of this connection wait than is good for memory."""
         return self._buffered_characters[channel] > MAX_BUFFERED_CHARACTERS
 
+    @property
+    def waiting_characters(self) -> int:
+        """Characters of the commands that wait."""
+        return sum(self._buffered_characters.values())
+
+    def mind_the_line(self) -> None:
+        """Whether commands may have to wait for the line has changed."""
+        self.careful = self._times.matter or self._controller.line.may_block
+
     # Commands coming in.
 
     def accept(self, text: str, channel: int, *, ends_line: bool) -> None:
@@ -137,7 +153,7 @@ class Interpreter:
         if command is not None and command.immediate and command.name in OPENERS:
             entry.command = replace(command, immediate=False)
         elif is_immediate_text(text) if command is None else command.immediate:
-            self._carry_out_immediate(entry)
+            self._take_immediate(entry)
             return
         self._enqueue(entry)
 
@@ -150,7 +166,7 @@ class Interpreter:
         self._enqueue(Entry("", None, None, channel, prompted=True))
 
     def _enqueue(self, entry: Entry) -> None:
-        if self.idle:
+        if self.idle and not self.careful:
             self._carry_out(entry)
             if self.wait is not None or self._execution.frames or self.due:
                 self.run()
@@ -162,7 +178,7 @@ class Interpreter:
 
     def _read(self, text: str, channel: int, ends_line: bool) -> Entry | None:
         """The entry for a command text; None when it is for another unit of the chain."""
-        prompted = ends_line or self._prompt_per_command
+        prompted = ends_line or self._controller.machine.serial.prompt_per == "command"
         try:
             command = parse_command(text)
         except CommandError as error:
@@ -202,6 +218,8 @@ class Interpreter:
             return True
         if not self._buffer:
             return False
+        if self.careful and self._has_to_wait(self._buffer[0]):
+            return True
         entry = self._buffer.popleft()
         self._buffered_characters[entry.channel] -= entry.size
         self._carry_out(entry)
@@ -235,19 +253,53 @@ class Interpreter:
         if programs.stores(command):
             programs.store(command, self._controller.settings.scaled_when_stored(command))
             return None
-        if self._block is None and command.name in OPENERS:
-            self._block = TypedBlock()
-        if self._block is None or command.name == "END":
+        block = TypedBlock() if self._block is None and command.name in OPENERS else self._block
+        if block is None or command.name == "END":
             return dispatch.carry_out(self._controller, command)
-        complete = self._block.add(command)
+        complete = block.add(command)
+        self._block = block if complete is None else None
         if complete is not None:
-            self._block = None
             self._execution.call("", complete)
         return None
+
+    def _has_to_wait(self, entry: Entry) -> bool:
+        """Whether the next command of the buffer cannot be carried out yet; the wait is set."""
+        if self.waits_for_output(entry.channel):
+            return True
+        if entry.taken_up or not self._times.matter:
+            return False
+        entry.taken_up = True
+        return self.waits_for_its_time(entry.command)
+
+    def waits_for_output(self, channel: int | None) -> bool:
+        """Wait, if so much waits to be sent to a connection that nothing may be added."""
+        if not self._controller.line.blocks(channel):
+            return False
+        self.wait = OutputWait(channel)
+        return True
+
+    def waits_for_its_time(self, command: Command | None) -> bool:
+        """Wait, if a command that is taken up now acts later."""
+        now_ns = self._controller.now_ns
+        done_ns = self._times.done_ns(self._controller, command, from_ns=now_ns)
+        if done_ns > now_ns:
+            self.turn_over(done_ns)
+        return done_ns > now_ns
 
     def _prompts_at_once(self, wait: Wait) -> bool:
         """Machine option: the prompt of GO does not wait for the end of the move."""
         return self._controller.machine.serial.go_prompt == "at_once" and isinstance(wait, MotionWait)
+
+    def _take_immediate(self, entry: Entry) -> None:
+        """Immediate commands act as they arrive, or one after the other when they take time."""
+        if self._times.matter:
+            controller = self._controller
+            from_ns = max(controller.now_ns, self._immediate_done_ns)
+            self._immediate_done_ns = self._times.done_ns(controller, entry.command, from_ns=from_ns)
+            if self._immediate_done_ns > controller.now_ns:
+                controller.alarms.at(self._immediate_done_ns, lambda: self._carry_out_immediate(entry))
+                return
+        self._carry_out_immediate(entry)
 
     def _carry_out_immediate(self, entry: Entry) -> None:
         """Carry a command out ahead of everything that waits; it never waits itself."""
@@ -343,6 +395,13 @@ class Interpreter:
         self.wait, self._waiting_entry, self.paused = None, None, False
         self._execution.interrupt(name, self._controller.programs.prepared(name), cause, held)
 
+    def forget_channel(self, channel: int) -> None:
+        """A connection is gone: what its program still has to say goes to everyone."""
+        if self.channel == channel:
+            self.channel = None
+        if self._execution.channel == channel:
+            self._execution.channel = None
+
     def leave_program(self) -> None:
         """The innermost program has come to its end."""
         frame = self._execution.leave()
@@ -375,7 +434,7 @@ class Interpreter:
         self.paused, self._at_break_point = True, break_point
 
     def turn_over(self, until_ns: int) -> None:
-        """The program has done what it may in this system update."""
+        """What comes next has its turn at a time (the next system update, or when its command has had its time)."""
         self.wait = UpdateWait(until_ns)
 
     def start_program(self, name: str) -> None:

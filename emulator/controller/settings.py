@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 
+from emulator.controller.changes import KEPT_COMMANDS, Changes
 from emulator.controller.motion.ramps import FOLLOWED, followed_setting
 from emulator.controller.scaling import (
     DISTANCE_SCALES,
@@ -62,7 +63,9 @@ class Settings:
         acceleration_range: tuple[Decimal, Decimal],
         ani_fitted: bool,
         lenient_masks: bool,
+        changes: Changes,
     ) -> None:
+        self._changes = changes
         self._acceleration_range = acceleration_range
         self._ani_fitted = ani_fitted
         self._lenient_masks = lenient_masks
@@ -179,6 +182,8 @@ class Settings:
             changed = [0]
         else:
             changed = self._assign_numbers(row, command)
+        if row.name in KEPT_COMMANDS:
+            self._changes.note()
         self._note_modes()
         return changed
 
@@ -226,8 +231,27 @@ class Settings:
         """Put back a number that was read with ``setting`` (recalling a gain set)."""
         self._numbers[name][index] = quantity
 
+    def kept_text(self, key: str) -> str:
+        """The fields of a setting as text, for non-volatile memory; ``key`` names the port where there is one
+        (``DRPCHK@2``)."""
+        if key in self._names:
+            return self._names[key]
+        if key in self._bits:
+            return "".join(self._bits[key])
+        return ",".join(str(quantity.value) for quantity in self._numbers[key])
+
+    def keep(self, key: str, fields: str | list[Decimal]) -> None:
+        """Put back what ``kept_text`` gave, read into its fields; it comes into force at power-up."""
+        if key in self._names:
+            self._names[key] = str(fields)
+        elif key in self._bits:
+            self._bits[key] = list(str(fields))
+        else:
+            self._numbers[key] = [Quantity(Decimal(field), 1) for field in fields]
+
     def reset(self, *, keep: Iterable[str]) -> None:
-        """Everything to power-up defaults, but the settings named in ``keep``."""
+        """Everything to power-up defaults, but the settings named in ``keep``; no change of what is kept."""
+        changes = self._changes.count
         kept_keys = {key for name in keep for key in _keys_of(name)}
         kept_numbers = {key: self._numbers[key] for key in kept_keys if key in self._numbers}
         kept_bits = {key: self._bits[key] for key in kept_keys if key in self._bits}
@@ -243,6 +267,7 @@ class Settings:
         self._bits.update(kept_bits)
         self._names.update(kept_names)
         self._note_modes()
+        self._changes.count = changes
 
     def _override(self, name: str, fields: str) -> None:
         row = commands().get(name)

@@ -88,6 +88,18 @@ class UpdateWait:
 
 
 @dataclass(frozen=True, slots=True)
+class OutputWait:
+    """What a connection is to hear cannot leave: its XOFF, or a slow line, has filled the output buffer."""
+
+    channel: int | None
+    look_again_ns: int = NEVER
+    status_bit: SystemStatus | None = None
+
+    def over(self, controller: Controller) -> bool:
+        return not controller.line.blocks(self.channel)
+
+
+@dataclass(frozen=True, slots=True)
 class Held:
     """What the buffer was waiting for when a program interrupted it, and the command that gets its prompt then."""
 

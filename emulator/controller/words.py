@@ -56,6 +56,7 @@ def system_status(controller: Controller) -> str:
         SystemStatus.EXTERNAL_PROGRAM_SELECT: settings.integer("INSELP") != 0,
         SystemStatus.WAITING_FOR_RP240: wait is not None and wait.status_bit is SystemStatus.WAITING_FOR_RP240,
         SystemStatus.RP240_CONNECTED: controller.machine.rp240.fitted,
+        SystemStatus.NONVOLATILE_MEMORY_ERROR: controller.memory_lost,
     }
     return word_bits(sum(bit.mask for bit, on in conditions.items() if on), WORD)
 

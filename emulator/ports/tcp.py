@@ -1,4 +1,8 @@
-"""TCP: any number of listeners and connections, all to one unit; a plain byte stream without greeting.
+"""TCP: any number of listeners and connections, all to one unit; a byte stream, or telnet if the client speaks it.
+
+A raw client gets no greeting and not one byte that the unit did not send. A client whose stream holds a telnet command
+is a telnet client from there on (`telnet_session`), an RFC 2217 client if it negotiates that. A listener made with
+`negotiate` takes every client for a telnet client and speaks first.
 
 Replies go to the connection whose bytes caused them. A client that only shuts down its sending side (`nc -N`, a shell
 pipe) still gets all its answers; the connection is closed when its commands are done. Connections are raw non-blocking
@@ -17,11 +21,14 @@ from functools import partial
 from emulator.channel import Channel
 from emulator.logs import event_line
 from emulator.pacing import EngineThread
-from emulator.ports.errors import PortError
+from emulator.ports.listeners import address_text, bind_all, is_remote
 from emulator.ports.outlet import Outlet
+from emulator.ports.telnet import Recognizer
+from emulator.ports.telnet_session import TelnetSession
 
 READ_BYTES = 4096
-BACKLOG = 512
+TELNET_READ_BYTES = 512
+"""Telnet is read in smaller portions: a portion of nothing but RFC 2217 requests must not hold up the others."""
 ACCEPTS_PER_WAKE = 64
 RETRY_ACCEPT_S = 0.5
 FLUSH_S = 5.0
@@ -29,39 +36,48 @@ FLUSH_S = 5.0
 KEEPALIVE = (("TCP_KEEPIDLE", 30), ("TCP_KEEPINTVL", 10), ("TCP_KEEPCNT", 3))
 """A host that vanished without a word is noticed within a minute (design choice)."""
 
+IAC = b"\xff"
 _OUT_OF_DESCRIPTORS = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _log = logging.getLogger("oem6250.port")
 
 
-def address_text(address: tuple[str, int] | tuple[str, int, int, int]) -> str:
-    """`127.0.0.1:6250`, `[::1]:6250`."""
-    host, port = address[0], address[1]
-    return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
-
-
 class TcpPort:
-    """The listeners of one `--tcp HOST:PORT`; `open` binds, `serve` begins to accept, `close` ends everything."""
+    """The listeners of one `--tcp` or `--telnet HOST:PORT`; making one binds, `serve` accepts, `close` ends everything.
 
-    def __init__(self, host: str, port: int) -> None:
-        self._listeners = _bind_all(host, port)
+    `negotiate`: speak telnet first, to every client. `allow_remote`: addresses other than loopback are allowed.
+    Raises PortError.
+    """
+
+    def __init__(self, host: str, port: int, *, negotiate: bool = False, allow_remote: bool = False) -> None:
+        option = "--telnet" if negotiate else "--tcp"
+        self._listeners = bind_all(host, port, option=option, allow_remote=allow_remote)
         self._connections: set[_Connection] = set()
+        self.negotiate = negotiate
+        self.strict_baud: int | None = None
+        """The unit's rate, if RFC 2217 clients at another rate shall not understand it; set before `serve`."""
 
     @property
     def addresses(self) -> list[str]:
         """Where it listens, as `HOST:PORT` with the real port number."""
         return [address_text(listener.getsockname()) for listener in self._listeners]
 
+    @property
+    def remote_addresses(self) -> list[str]:
+        """Those of `addresses` that other machines may reach."""
+        names = [listener.getsockname() for listener in self._listeners]
+        return [address_text(name) for name in names if is_remote(name[0])]
+
     def serve(self, loop: asyncio.AbstractEventLoop, engine: EngineThread, unit_index: int = 0) -> None:
         """Accept connections for a unit from now on (those made since binding wait in the backlog)."""
-        self._loop, self._engine, self._unit_index = loop, engine, unit_index
+        self.loop, self.engine, self.unit_index = loop, engine, unit_index
         for listener in self._listeners:
             loop.add_reader(listener.fileno(), self._accept, listener)
 
     def stop_accepting(self) -> None:
         """Close the listeners; connections stay."""
         for listener in self._listeners:
-            if hasattr(self, "_loop"):
-                self._loop.remove_reader(listener.fileno())
+            if hasattr(self, "loop"):
+                self.loop.remove_reader(listener.fileno())
             listener.close()
         self._listeners = []
 
@@ -80,21 +96,19 @@ class TcpPort:
             except OSError as error:
                 self._accept_later(listener, error)
                 return
-            self._connections.add(
-                _Connection(sock, address_text(address), self._loop, self._engine, self._unit_index, self._gone)
-            )
+            self._connections.add(_Connection(sock, address_text(address), self, self._gone))
 
     def _accept_later(self, listener: socket.socket, error: OSError) -> None:
         """Out of descriptors: leave the others alone and try again shortly."""
         if error.errno not in _OUT_OF_DESCRIPTORS:
             return
         _log.warning(event_line("cannot accept a connection", error=error.strerror))
-        self._loop.remove_reader(listener.fileno())
-        self._loop.call_later(RETRY_ACCEPT_S, self._accept_again, listener)
+        self.loop.remove_reader(listener.fileno())
+        self.loop.call_later(RETRY_ACCEPT_S, self._accept_again, listener)
 
     def _accept_again(self, listener: socket.socket) -> None:
         if listener in self._listeners:
-            self._loop.add_reader(listener.fileno(), self._accept, listener)
+            self.loop.add_reader(listener.fileno(), self._accept, listener)
 
     def _gone(self, connection: _Connection) -> None:
         self._connections.discard(connection)
@@ -103,38 +117,59 @@ class TcpPort:
 class _Connection:
     """One accepted socket. It ends in three steps: reading ends, the engine thread lets go, the socket is closed."""
 
-    def __init__(
-        self,
-        sock: socket.socket,
-        peer: str,
-        loop: asyncio.AbstractEventLoop,
-        engine: EngineThread,
-        unit_index: int,
-        on_closed: Callable[[_Connection], None],
-    ) -> None:
+    def __init__(self, sock: socket.socket, peer: str, port: TcpPort, on_closed: Callable[[_Connection], None]) -> None:
         _set_options(sock)
-        self._sock, self._loop, self._engine, self._on_closed = sock, loop, engine, on_closed
-        self._name = f"tcp:{peer}"
-        self._outlet = Outlet(loop, sock.fileno(), sock.send, name=self._name, on_broken=self._broken)
+        self._sock, self._loop, self._engine, self._on_closed = sock, port.loop, port.engine, on_closed
+        self._name = f"{'telnet' if port.negotiate else 'tcp'}:{peer}"
+        self._strict_baud = port.strict_baud
+        self._outlet = Outlet(self._loop, sock.fileno(), sock.send, name=self._name, on_broken=self._broken)
         self.descriptors = (sock.fileno(),)
         self.send = self._outlet.send
-        self._channel = engine.attach(unit_index, self)
+        self._recognizer = Recognizer()
+        self._telnet: TelnetSession | None = None
+        self._read_bytes = READ_BYTES
+        if port.negotiate:
+            self._begin_telnet()
+        self._channel = self._engine.attach(port.unit_index, self)
         _log.info(event_line("connected", port=self._name, channel=self._channel.number))
 
     # Engine thread.
 
     def arrived(self, channel: Channel) -> None:
         try:
-            data = self._sock.recv(READ_BYTES)
+            data = self._sock.recv(self._read_bytes)
         except (BlockingIOError, InterruptedError):
             return
         except OSError:
             self._engine.lose(channel, partial(self._soon, self.close))
             return
+        if not data:
+            self._queue(channel, self._recognizer.flush())
+            self._engine.finish(channel, partial(self._soon, self._flush))
+        elif self._telnet is not None:
+            self._queue(channel, self._telnet.receive(data))
+        elif IAC in data or self._recognizer.undecided:
+            self._look_for_telnet(channel, data)
+        else:
+            channel.waiting.append(data)
+
+    def _look_for_telnet(self, channel: Channel, data: bytes) -> None:
+        raw, telnet = self._recognizer.feed(data)
+        self._queue(channel, raw)
+        if telnet:
+            self._queue(channel, self._begin_telnet().receive(telnet))
+
+    def _begin_telnet(self) -> TelnetSession:
+        _log.info(event_line("telnet", port=self._name))
+        self._telnet = TelnetSession(self._outlet.send, name=self._name, strict_baud=self._strict_baud)
+        self.send = self._telnet.send
+        self._read_bytes = TELNET_READ_BYTES
+        self._telnet.open()
+        return self._telnet
+
+    def _queue(self, channel: Channel, data: bytes) -> None:
         if data:
             channel.waiting.append(data)
-        else:
-            self._engine.finish(channel, partial(self._soon, self._flush))
 
     def _soon(self, function: Callable[[], None]) -> None:
         if not self._loop.is_closed():
@@ -164,46 +199,9 @@ class _Connection:
 def _set_options(sock: socket.socket) -> None:
     sock.setblocking(False)
     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    # Telnet clients send a data mark out of band; without this its byte would be missing from the stream.
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_OOBINLINE, 1)
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
     for name, value in KEEPALIVE:
         if hasattr(socket, name):
             sock.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
-
-
-def _bind_all(host: str, port: int) -> list[socket.socket]:
-    """Listeners on every address of `host` ("" is every interface), all with the same port number."""
-    try:
-        infos = socket.getaddrinfo(host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
-    except (OSError, UnicodeError) as error:
-        raise PortError(f"--tcp {host}:{port}: no such address ({getattr(error, 'strerror', None) or error})") from None
-    listeners: list[socket.socket] = []
-    try:
-        for family, address in dict.fromkeys((info[0], info[4]) for info in infos):
-            number = listeners[0].getsockname()[1] if listeners else port
-            listeners.append(_bind(family, (address[0], number, *address[2:])))
-    except OSError as error:
-        for listener in listeners:
-            listener.close()
-        raise PortError(f"--tcp {host}:{port}: {_reason(error)}") from None
-    return listeners
-
-
-def _bind(family: int, address: tuple[object, ...]) -> socket.socket:
-    listener = socket.socket(family, socket.SOCK_STREAM)
-    try:
-        listener.setblocking(False)
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        if family == socket.AF_INET6:
-            listener.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, 1)
-        listener.bind(address)
-        listener.listen(BACKLOG)
-    except OSError:
-        listener.close()
-        raise
-    return listener
-
-
-def _reason(error: OSError) -> str:
-    if error.errno == errno.EADDRINUSE:
-        return "the port is in use (is another emulator running? port 0 picks a free one)"
-    return error.strerror or str(error)

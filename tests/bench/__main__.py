@@ -24,9 +24,11 @@ GROUPS = {
     "controller": "controller",
     "interpreter": "interpreter",
     "round-trip": "round_trip",
+    "transports": "transports",
     "pacing": "pacing",
     "staleness": "staleness",
     "footprint": "footprint",
+    "state": "acknowledged",
 }
 """What can be asked for with --only, and the module whose `measure(effort)` does it."""
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import gc
 import json
+import os
 import random
 import selectors
 import socket
@@ -22,6 +23,7 @@ from tests.bench.figures import percentile
 PATIENCE_S = 20.0
 RECEIVE_BYTES = 65536
 PROMPT = b"\r\n> "
+QUIET_S = 0.1
 NS_PER_US = 1_000
 
 
@@ -37,8 +39,12 @@ class Hammering(TypedDict):
 class Client:
     """One connection with `depth` requests under way, sent in one write; times from that write to the last answer."""
 
-    def __init__(self, address: tuple[str, int], question: bytes, answer_bytes: int, depth: int) -> None:
-        self.sock = connect(address)
+    def __init__(
+        self, address: tuple[str, int] | str, question: bytes, answer_bytes: int, depth: int, opening: bytes = b""
+    ) -> None:
+        self.sock = Terminal(address) if isinstance(address, str) else connect(address)
+        if opening:
+            negotiate(self.sock, opening)
         self._questions, self._expected = question * depth, answer_bytes * depth
         self._left = 0
         self._sent_ns = 0
@@ -61,6 +67,37 @@ class Client:
         return True
 
 
+class Terminal:
+    """A pseudo-terminal with what of a socket is needed here."""
+
+    def __init__(self, path: str) -> None:
+        self._fd = os.open(path, os.O_RDWR | os.O_NOCTTY)
+
+    def fileno(self) -> int:
+        return self._fd
+
+    def send(self, data: bytes) -> int:
+        return os.write(self._fd, data)
+
+    def recv(self, count: int) -> bytes:
+        return os.read(self._fd, count)
+
+    def close(self) -> None:
+        os.close(self._fd)
+
+
+Line = socket.socket | Terminal
+
+
+def negotiate(line: Line, opening: bytes) -> None:
+    """Send the first words of a telnet client and wait until all answers are there."""
+    line.send(opening)
+    with selectors.DefaultSelector() as selector:
+        selector.register(line, selectors.EVENT_READ)
+        while selector.select(QUIET_S):
+            receive(line)
+
+
 def connect(address: tuple[str, int]) -> socket.socket:
     """A blocking connection without Nagle's delay."""
     sock = socket.create_connection(address, timeout=PATIENCE_S)
@@ -68,7 +105,7 @@ def connect(address: tuple[str, int]) -> socket.socket:
     return sock
 
 
-def receive(sock: socket.socket) -> bytes:
+def receive(sock: Line) -> bytes:
     """What has arrived, at least a byte. Raises ConnectionResetError at the end, TimeoutError after PATIENCE_S."""
     data = sock.recv(RECEIVE_BYTES)
     if not data:
@@ -77,10 +114,21 @@ def receive(sock: socket.socket) -> bytes:
 
 
 def hammer(
-    *, address: tuple[str, int], question: str, answer_bytes: int, clients: int, depth: int, seconds: float
+    *,
+    address: tuple[str, int] | str,
+    question: str,
+    answer_bytes: int,
+    clients: int,
+    depth: int,
+    seconds: float,
+    opening: str = "",
 ) -> Hammering:
-    """Closed loop: every client asks again as soon as it is answered, for `seconds`."""
-    crowd = [Client(address, question.encode("latin-1"), answer_bytes, depth) for _ in range(clients)]
+    """Closed loop: every client asks again as soon as it is answered, for `seconds`.
+
+    `address` is that of a socket or the path of a terminal; `opening` is what a client says before it asks.
+    """
+    asked, first = question.encode("latin-1"), opening.encode("latin-1")
+    crowd = [Client(address, asked, answer_bytes, depth, first) for _ in range(clients)]
     began_ns, began_cpu_ns = time.perf_counter_ns(), time.process_time_ns()
     (_hammer_alone if clients == 1 else _hammer_together)(crowd, began_ns + int(seconds * 1e9))
     elapsed_ns, cpu_ns = time.perf_counter_ns() - began_ns, time.process_time_ns() - began_cpu_ns
@@ -150,7 +198,8 @@ def main() -> None:
     for line in sys.stdin:
         job: dict[str, Any] = json.loads(line)
         name = job.pop("job")
-        job["address"] = tuple(job["address"])
+        if isinstance(job["address"], list):
+            job["address"] = tuple(job["address"])
         print(json.dumps(JOBS[name](**job)), flush=True)
 
 

@@ -40,7 +40,9 @@ class Server:
         line = _read_line(self.process)
         if not line:
             raise RuntimeError(f"{' '.join(arguments)} ended: {self.process.communicate()[1]}")
-        host, _, port = json.loads(line)["tcp"][0].rpartition(":")
+        told = json.loads(line)
+        host, _, port = told["tcp"][0].rpartition(":")
+        self.pty: str | None = told.get("pty")
         self.address: tuple[str, int] = (host, int(port))
         self._statistics = psutil.Process(self.process.pid)
 
@@ -110,12 +112,22 @@ class Load:
         self._process.communicate()
 
     def hammer(
-        self, server: Server, question: bytes, answer_bytes: int, *, clients: int, seconds: float, depth: int = 1
+        self,
+        server: Server,
+        question: bytes,
+        answer_bytes: int,
+        *,
+        clients: int,
+        seconds: float,
+        depth: int = 1,
+        opening: bytes = b"",
+        path: str | None = None,
     ) -> Hammering:
         """Ask a server as fast as it answers; see `tests.bench.load.hammer`."""
         result: Hammering = self._do(
             job="hammer",
-            address=server.address,
+            address=path or server.address,
+            opening=opening.decode("latin-1"),
             question=question.decode("latin-1"),
             answer_bytes=answer_bytes,
             clients=clients,

@@ -1,6 +1,7 @@
-"""Request and response over TCP beside the bare echo: one client, ten, and ten with eight requests in one write.
+"""Request and response over TCP beside the bare echo: one client, ten, a hundred, and ten with eight at once.
 
-The echo is given messages of the length of the unit's answer, so that both servers send the same.
+Eight at once are one write. The echo is given messages of the length of the unit's answer, so that both servers send
+the same.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from tests.bench.processes import Load, Server, echo, oem6250
 
 QUESTION = b"1TPE\r"
 ECHO_NAME = "bare asyncio echo"
-CASES = (("1 client", 1, 1), ("10 clients", 10, 1), ("10 clients x 8", 10, 8))
+CASES = (("1 client", 1, 1), ("10 clients", 10, 1), ("10 clients x 8", 10, 8), ("100 clients", 100, 1))
 """Name, clients, requests under way of each. Hosts send three to eight commands in one write."""
 REQUESTS_PER_S = Reach(bound=30_000, at_least=True)
 

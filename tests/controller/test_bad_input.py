@@ -22,8 +22,9 @@ ANY_ERROR = re.compile(r"\r\n\*([^\r]*)\r\r\n\? ")
 NUMBERED = re.compile(r"(FIELD|AXIS) \d+$")
 KNOWN_ERRORS = {NUMBERED.sub(r"\1 n", row.text) for row in error_rows()}
 
-RESCUE = b"\r0_!E1\r0_!K\r0_!ADDR0\r0_!STARTPCLR\r0_!ERASE\r0_!RESET\r"
-"""Ends whatever a host has left behind: half a line, silence, a wait, a definition, an address, a start-up program."""
+RESCUE = b"\x11\r0_!E1\r0_!K\r0_!ADDR0\r0_!STARTPCLR\r0_!ERASE\r0_!RESET\r"
+"""Ends whatever a host has left behind: a line stopped by XOFF, half a line, silence, a wait, a definition, an
+address, a start-up program."""
 
 
 def assert_still_answers(session: Session) -> None:

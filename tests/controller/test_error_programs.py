@@ -85,3 +85,12 @@ def test_an_input_calls_the_on_program_during_a_move() -> None:
     assert session.query("!1TAS.1") == "1"
     session.advance(1)
     assert session.read() == OK, "the prompt of GO comes when the move is over"
+
+
+def test_a_loop_refused_in_its_first_line_was_never_begun() -> None:
+    """Its end then stands alone; commands between are carried out at once."""
+    session = Session()
+    assert "INCORRECT DATA" in session.ask("WHILE(1AS.27T=B1)")
+    session.ok("D7")
+    assert session.query("1D") == "1D+7"
+    assert "INVALID CONDITIONS" in session.ask("NWHILE")

@@ -6,13 +6,14 @@ from decimal import Decimal
 
 import pytest
 
+from emulator.controller.changes import Changes
 from emulator.controller.variables.store import Variables
 from tests.controller.session import OK, Session
 
 
 @pytest.fixture
 def variables() -> Variables:
-    return Variables(numbers=150, patterns=25, texts=25, text_length=20)
+    return Variables(numbers=150, patterns=25, texts=25, text_length=20, changes=Changes())
 
 
 def test_a_snapshot_brings_everything_back(variables: Variables) -> None:
@@ -32,7 +33,7 @@ def test_a_snapshot_brings_everything_back(variables: Variables) -> None:
 
 def test_a_snapshot_of_a_unit_with_other_counts(variables: Variables) -> None:
     variables.set_number(2, Decimal(7))
-    small = Variables(numbers=2, patterns=1, texts=1, text_length=20)
+    small = Variables(numbers=2, patterns=1, texts=1, text_length=20, changes=Changes())
     small.restore(variables.snapshot())
     assert small.snapshot().numbers == (0, 7)
     variables.restore(small.snapshot())

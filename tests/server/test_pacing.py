@@ -268,3 +268,14 @@ def test_a_forgotten_channel_stays_attached(bench: Bench) -> None:
     bench.put(0, b"F\r")
     bench.settle()
     assert bench.ears[0].heard == b"*F\r\n> "
+
+
+def test_a_channel_detached_while_in_line_for_its_turn_is_passed_over(bench: Bench) -> None:
+    channel = bench.channels[0]
+
+    def detach_in_line() -> None:
+        bench.engine._enqueue(channel, lambda: None)
+        bench.engine._detach(channel, lambda: None)
+
+    bench.engine.call(detach_in_line).result(PATIENCE_S)
+    bench.settle()

@@ -72,7 +72,7 @@ def test_a_person_is_told_where_to_connect_and_what_to_type(tmp_path: Path) -> N
         process.terminate()
     assert "Ctrl-C" in up
     assert str(tmp_path / "tty") in serial_port
-    assert "telnet 127.0.0.1 " in tcp
+    assert "telnet -- 127.0.0.1 -" in tcp
     assert "DRIVE11" in typing
 
 
@@ -181,13 +181,6 @@ def test_help_imports_nothing_heavy() -> None:
     )
     result = subprocess.run([sys.executable, "-c", code], cwd=REPOSITORY, capture_output=True, text=True, check=False)
     assert result.returncode == 0, result.stderr
-
-
-def test_what_cannot_act_yet_says_so(tmp_path: Path) -> None:
-    options = ("--no-tcp", "--pty", "none", "--line", "9600", "--state", str(tmp_path / "memory"))
-    with Served(*options, announce=tmp_path / "announce") as served:
-        _, _, errors = served.stop()
-    assert [line.split(":")[1] for line in errors.splitlines()] == [" --line 9600", f" --state {tmp_path / 'memory'}"]
 
 
 def test_traffic_is_logged_in_readable_form_when_asked_for(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The same transcripts through a running server: once over a real pty with pyserial, once over TCP, in real time.
+"""The same transcripts through a running server, over every transport of `transports.py`, in real time.
 
 Order and bytes are asserted exactly, moments only generously: a host's clock is not the unit's. One server process
 serves all files with the same machine; RESET between two of them brings the unit back to its power-up state. Long
@@ -8,7 +8,6 @@ sessions run at a higher speed, still paced by the wall.
 from __future__ import annotations
 
 import json
-import os
 import re
 import subprocess
 import sys
@@ -24,6 +23,7 @@ from clients import LineClient
 from emulator.machine import Machine
 from tests.transcripts.format import Expect, Match, Pass, Send, Transcript, load
 from tests.transcripts.test_virtual import Mismatch, matched, wanted
+from tests.transcripts.transports import ALL, Transport
 
 HERE = Path(__file__).parent
 
@@ -39,10 +39,12 @@ SESSIONS = [
     for transcript in map(load, sorted(HERE.glob("*.txt")))
     if not transcript.virtual_only and not resets_to_its_own_defaults(transcript)
 ]
-TRANSPORTS = ["tcp", "pty"] if hasattr(os, "openpty") else ["tcp"]
 
 DEFAULT_SHARE = 8
 """Of the sessions that are not those of known hosts every eighth is played in the default run, all with --runslow."""
+USUAL = ("tcp", "pty")
+"""Transports with that share, and with the hosts' sessions; the others repeat one of them in every sixty-four."""
+SMALL_SHARE = 64
 
 REAL_TIME_UP_TO_S = 1.6
 """Sessions that take longer are played faster, so that the whole file stays under a minute."""
@@ -50,6 +52,9 @@ FAST = 8.0
 PATIENCE_S = 3.0
 """How long bytes may be late on a busy machine before the session is given up."""
 QUIET_S = 0.03
+SET_UP_DONE = b"~"
+LAST_OF_SET_UP = b'WRITE"\\126"\n'
+"""Makes the unit say so at every error level; the character is not in its echo."""
 OPTIONAL_ENDS = (b"?", b"*", b"+", b"}")
 """A pattern that ends so may go on matching; only then it is worth waiting for more."""
 COASTING_S = 0.5
@@ -62,7 +67,8 @@ class Server:
 
     process: subprocess.Popen[str]
     speed: float
-    urls: dict[str, str]
+    told: dict[str, object]
+    transports: dict[str, Transport]
 
 
 class Servers:
@@ -82,17 +88,18 @@ class Servers:
 
     def _start(self, machine: str, speed: float) -> Server:
         number = len(self._running)
-        file, link = self._folder / f"{number}.toml", self._folder / f"pty{number}"
+        file = self._folder / f"{number}.toml"
         file.write_text(machine, encoding="utf-8")
-        pty = str(link) if "pty" in TRANSPORTS else "none"
-        options = [str(file), "--tcp", "127.0.0.1:0", "--pty", pty, "--speed", f"{speed:g}", "--announce", "-"]
+        ways = [make() for make in ALL]
+        options = [str(file), "--speed", f"{speed:g}", "--announce", "-"]
+        for way in ways:
+            options += way.prepare(self._folder, number) if not way.missing or way.name == "pty" else []
         command = [sys.executable, "-m", "emulator", "serve", *options]
         process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=HERE.parents[1])
         assert process.stdout is not None
         line = process.stdout.readline()
         assert line, f"the server ended with status {process.wait()}"
-        told = json.loads(line)
-        return Server(process, speed, {"tcp": f"tcp://{told['tcp'][0]}", "pty": told["pty"] or ""})
+        return Server(process, speed, json.loads(line), {way.name: way for way in ways})
 
     def close(self) -> None:
         """Stop every server started here; each must leave cleanly."""
@@ -101,6 +108,8 @@ class Servers:
         for server in self._running.values():
             with server.process:
                 assert server.process.wait(timeout=10) == 0
+            for transport in server.transports.values():
+                transport.close()
 
 
 @pytest.fixture(scope="module")
@@ -177,22 +186,34 @@ def power_cycle(client: LineClient, transcript: Transcript) -> None:
         received += client.receive(QUIET_S)
     settings = tomllib.loads(transcript.machine).get("defaults", {})
     fields = Machine.parse(transcript.machine).defaults
-    client.write("".join(f"{name}{fields[name]}\n" for name in settings).encode())
+    client.write("".join(f"{name}{fields[name]}\n" for name in settings).encode() + LAST_OF_SET_UP)
+    received, deadline = b"", time.monotonic() + PATIENCE_S
+    while SET_UP_DONE not in received and time.monotonic() < deadline:
+        received += client.receive(QUIET_S)
+    assert SET_UP_DONE in received, f"{transcript.path.name}: set up, the unit said {received!r}"
     client.read_available(QUIET_S)
 
 
 def _sessions() -> Iterator[object]:
-    """Every session; the hosts' own and a share of the others run by default."""
-    for index, transcript in enumerate(SESSIONS):
-        usual = transcript.path.stem.startswith("host_") or index % DEFAULT_SHARE == 0
-        yield pytest.param(transcript, id=transcript.path.stem, marks=() if usual else (pytest.mark.slow,))
+    """Every session over every transport; the hosts' own and a share of the others run by default."""
+    for transport in ALL:
+        for index, transcript in enumerate(SESSIONS):
+            marks = [] if _by_default(transport.name, transcript, index) else [pytest.mark.slow]
+            if transport.missing:
+                marks.append(pytest.mark.skip(reason=transport.missing))
+            yield pytest.param(transcript, transport.name, id=f"{transcript.path.stem}-{transport.name}", marks=marks)
 
 
-@pytest.mark.parametrize("transport", TRANSPORTS)
-@pytest.mark.parametrize("transcript", list(_sessions()))
+def _by_default(transport: str, transcript: Transcript, index: int) -> bool:
+    if transport in USUAL:
+        return transcript.path.stem.startswith("host_") or index % DEFAULT_SHARE == 0
+    return index % SMALL_SHARE == 0
+
+
+@pytest.mark.parametrize(("transcript", "transport"), list(_sessions()))
 def test_transcript(transcript: Transcript, transport: str, servers: Servers) -> None:
     server = servers.server(transcript)
-    with LineClient.open(server.urls[transport], timeout_s=PATIENCE_S) as client:
+    with server.transports[transport].open(server.told, timeout_s=PATIENCE_S) as client:
         power_cycle(client, transcript)
         try:
             RealSession(transcript, client, speed=server.speed).run()

@@ -40,6 +40,7 @@ def _set_number(controller: Controller, command: Command) -> int:
 def save_gain_set(controller: Controller, command: Command) -> Lines:
     """SGSETn: save the active values of both axes as set n."""
     number = _set_number(controller, command)
+    controller.changes.note()
     settings = controller.settings
     controller.gain_sets[number] = [
         {name: settings.setting(name, axis_index) for name in SET_COMMANDS} for axis_index in range(settings.axes)

@@ -47,6 +47,8 @@ class Frame:
     cause: Cause = Cause.CALL
     held: Held | None = None
     """What the buffer was waiting for when an ERRORP or ONP program interrupted it."""
+    taken_up: int = -1
+    """The instruction whose time has begun (``[timing]``); -1 while none has."""
 
     @property
     def code(self) -> Code:

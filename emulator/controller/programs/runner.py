@@ -25,8 +25,7 @@ class Runner:
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
         self._execution = controller.programs.execution
-        self._commands_per_update = controller.machine.timing.commands_per_update
-        self._left = self._commands_per_update
+        self._left = 0
         self._refill_ns = 0
 
     def run(self) -> bool:
@@ -43,17 +42,33 @@ class Runner:
             if self._left <= 0:
                 interpreter.turn_over(self._refill_ns)
                 return True
+            if interpreter.careful and self._has_to_wait(frames[-1]):
+                return True
             self._left -= 1
             self._next(frames[-1])
             if interpreter.wait is not None or interpreter.paused or interpreter.due:
                 return True
         return True
 
+    def _has_to_wait(self, frame: Frame) -> bool:
+        """Whether the next command of a program cannot be carried out yet; the interpreter waits for it."""
+        interpreter = self._controller.interpreter
+        if interpreter.waits_for_output(self._execution.channel):
+            return True
+        if frame.taken_up == frame.next or frame.next >= len(frame.code):
+            frame.taken_up = -1
+            return False
+        frame.taken_up = frame.next
+        if interpreter.waits_for_its_time(frame.code[frame.next].command):
+            return True
+        frame.taken_up = -1
+        return False
+
     def _refill(self) -> None:
         """The share of a system update is given once in it, however often the program is taken up again."""
         engine = self._controller.engine
         if engine.time_ns >= self._refill_ns:
-            self._left = self._commands_per_update
+            self._left = self._controller.machine.timing.commands_per_update
             self._refill_ns = engine.next_system_update_ns
 
     def _next(self, frame: Frame) -> None:

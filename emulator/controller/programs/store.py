@@ -7,15 +7,19 @@ the line goes dead in the middle, it stays open until END, and whoever types nex
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from emulator.controller.changes import Changes
 from emulator.controller.dispatch import Lines, applies, handles, is_implemented, store_setting
 from emulator.controller.programs.execution import Execution
 from emulator.controller.programs.preparation import Prepared, condition_of, prepare
+from emulator.controller.scaling import Quantity
 from emulator.controller.settings import Quantities
 from emulator.controller.variables.data_statements import BYTES_PER_STATEMENT, check_place
-from protocol.command import Command, check_program_name, is_command_name
+from emulator.state.contents import Number, ProgramText, ScaledLine
+from protocol.command import Command, check_program_name, is_command_name, parse_command
 from protocol.errors import (
     COMMAND_NOT_ALLOWED_IN_PROGRAM,
     COMMAND_NOT_IMPLEMENTED,
@@ -51,20 +55,26 @@ NO_NAME = "CLR"
 class Program:
     """One stored program: its text, the memory it takes, and its prepared form once it has been needed.
 
-    ``quantities`` keeps the values of scaled settings, by line, as they were scaled when they were stored.
+    ``quantities`` keeps the values of scaled settings, by line, as they were scaled when they were stored; ``scaled``
+    has the same for non-volatile memory, and ``kept`` is the program as that has it, until it changes.
     """
 
     texts: list[str] = field(default_factory=list)
     quantities: dict[int, Quantities] = field(default_factory=dict)
+    scaled: list[ScaledLine] = field(default_factory=list)
     labels: list[str] = field(default_factory=list)
     size: int = 0
     prepared: Prepared | None = None
+    kept: ProgramText | None = None
 
 
 class Programs:
     """The programs of one unit."""
 
-    def __init__(self, *, capacity_bytes: int, max_programs: int, max_nesting: int, max_labels: int) -> None:
+    def __init__(
+        self, *, capacity_bytes: int, max_programs: int, max_nesting: int, max_labels: int, changes: Changes
+    ) -> None:
+        self._changes = changes
         self.capacity_bytes = capacity_bytes
         self._max_programs = max_programs
         self._max_labels = max_labels
@@ -133,6 +143,7 @@ class Programs:
             raise CommandError(INSUFFICIENT_MEMORY)
         self._stored[name] = Program()
         self.defining = name
+        self._changes.note()
 
     def stores(self, command: Command) -> bool:
         """Whether a buffered command goes into the program being defined rather than being carried out."""
@@ -148,6 +159,10 @@ class Programs:
         check_storable(command)
         program = self._stored[self.defining]
         check_place(self.defining, command)
+        self._add(program, command, quantities)
+        self._changed(program)
+
+    def _add(self, program: Program, command: Command, quantities: Quantities | None) -> None:
         size = BYTES_PER_STATEMENT if command.name == "DATA" else len(command.text) + BYTES_PER_COMMAND
         if self.bytes_free < size:
             raise CommandError(INSUFFICIENT_MEMORY)
@@ -155,10 +170,20 @@ class Programs:
             self._add_label(program, command.argument)
         if quantities:
             program.quantities[len(program.texts)] = quantities
+            program.scaled.append((len(program.texts), tuple(quantities.items())))
         program.texts.append(command.text)
         program.size += size
         self._used += size
-        program.prepared = None
+
+    def _changed(self, program: Program) -> None:
+        program.prepared = program.kept = None
+        self._changes.note()
+
+    def replace_line(self, name: str, line: int, text: str) -> None:
+        """Put another command of the same size in the place of one (teaching a data program)."""
+        program = self._stored[name]
+        program.texts[line] = text
+        self._changed(program)
 
     def _add_label(self, program: Program, label: str) -> None:
         _check_name(label)
@@ -193,6 +218,7 @@ class Programs:
         program = self._stored.pop(name, None)
         if program is not None:
             self._used -= program.size
+            self._changes.note()
         return program is not None
 
     def erase(self) -> None:
@@ -200,6 +226,33 @@ class Programs:
         self._stored.clear()
         self._used = 0
         self.defining = None
+        self._changes.note()
+
+    # Non-volatile memory.
+
+    def snapshot(self) -> tuple[ProgramText, ...]:
+        """All programs, in the order they were defined; one that has not changed is the same object as before."""
+        return tuple(_kept(name, program) for name, program in self._stored.items())
+
+    def restore(self, kept: Sequence[ProgramText]) -> list[str]:
+        """Store what ``snapshot`` gave, in place of everything; what finds no room, in words."""
+        self.erase()
+        return [f"program {text.name}" for text in kept if not self._restore(text)]
+
+    def _restore(self, kept: ProgramText) -> bool:
+        used, program = self._used, Program()
+        scaled = {line: _quantities(values) for line, values in kept.scaled}
+        try:
+            if len(self._stored) >= self._max_programs:
+                raise CommandError(INSUFFICIENT_MEMORY)
+            for line, text in enumerate(kept.lines):
+                self._add(program, parse_command(text), scaled.get(line))
+        except CommandError:
+            self._used = used
+            return False
+        program.kept = kept
+        self._stored[kept.name] = program
+        return True
 
     # Carrying out.
 
@@ -230,6 +283,16 @@ class Programs:
             return None
         following = frame.code[frame.next].command.text if frame.next < len(frame.code) else "END"
         return frame.name, following
+
+
+def _kept(name: str, program: Program) -> ProgramText:
+    if program.kept is None:
+        program.kept = ProgramText(name, tuple(program.texts), tuple(program.scaled))
+    return program.kept
+
+
+def _quantities(values: Sequence[tuple[int, Number]]) -> Quantities:
+    return {index: Quantity(value, factor) for index, (value, factor) in values}
 
 
 def check_storable(command: Command) -> None:

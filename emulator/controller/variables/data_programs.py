@@ -134,13 +134,13 @@ class DataPrograms:
             self._go_on(self.active)
 
     def _replace(self, element: int, value: Decimal) -> None:
-        statements = self._controller.programs.lines(program_name(self.active))
+        programs, name = self._controller.programs, program_name(self.active)
         before = 0
-        for line, statement in enumerate(statements):
+        for line, statement in enumerate(programs.lines(name)):
             numbers = list(numbers_of(statement))
             if before < element <= before + len(numbers):
                 numbers[element - before - 1] = value
-                statements[line] = statement_of(numbers)
+                programs.replace_line(name, line, statement_of(numbers))
                 break
             before += len(numbers)
         self._read.pop(self.active, None)

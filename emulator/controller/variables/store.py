@@ -13,6 +13,7 @@ from decimal import Decimal
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+from emulator.controller.changes import Changes
 from emulator.controller.dispatch import Lines, handles, require_no_fields
 from emulator.controller.settings import bit_of
 from protocol import bitwise
@@ -60,7 +61,8 @@ class Snapshot(NamedTuple):
 class Variables:
     """The variables of one unit, numbered from 1."""
 
-    def __init__(self, *, numbers: int, patterns: int, texts: int, text_length: int) -> None:
+    def __init__(self, *, numbers: int, patterns: int, texts: int, text_length: int, changes: Changes) -> None:
+        self._changes = changes
         self._counts = (numbers, patterns, texts)
         self.text_length = text_length
         self.clear()
@@ -71,6 +73,7 @@ class Variables:
         self._numbers = [Decimal(0)] * numbers
         self._bits = ["X" * bitwise.WORD] * patterns
         self._texts = [""] * texts
+        self._changes.note()
 
     def number(self, index: int) -> Decimal:
         """A VAR.
@@ -87,6 +90,7 @@ class Variables:
         if not 0 < index <= len(self._numbers):
             raise CommandError(INVALID_DATA)
         self._numbers[index - 1] = value
+        self._changes.count += 1
 
     def bits(self, index: int) -> str:
         """A VARB, 32 characters of 0, 1, X; errors as ``number``."""
@@ -95,6 +99,7 @@ class Variables:
     def set_bits(self, index: int, bits: str) -> None:
         """Assign a VARB; bits not given become X, also where they had a value (knowledge base, VARB page)."""
         self._bits[_place(index, self._bits)] = bitwise.padded(bits)
+        self._changes.note()
 
     def text(self, index: int) -> str:
         """A VARS; errors as ``number``."""
@@ -109,6 +114,7 @@ class Variables:
         if len(text) > self.text_length:
             raise CommandError(INVALID_DATA)
         self._texts[_place(index, self._texts)] = text
+        self._changes.note()
 
     def snapshot(self) -> Snapshot:
         """Everything, for ``restore``."""

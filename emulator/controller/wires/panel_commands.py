@@ -161,6 +161,7 @@ def set_password(controller: Controller, command: Command) -> Lines:
     if not 0 <= password <= LARGEST_PASSWORD:
         raise CommandError(INVALID_DATA)
     controller.panel_password = password
+    controller.changes.note()
     return None
 
 
