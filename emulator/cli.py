@@ -1,7 +1,8 @@
 """The command line: `oem6250 serve [MACHINE.toml] [options]`.
 
 argparse rather than a richer library, because `--help` and `--version` must answer within 0.15 s and importing one of
-those takes longer than that by itself. For the same reason nothing heavy is imported before something is served.
+those takes longer than that by itself. For the same reason nothing heavy is imported before something is done. Each
+command brings its function along as `carry_out`.
 Every mistake of the user is one line on stderr and exit status 2.
 """
 
@@ -14,10 +15,10 @@ from typing import TYPE_CHECKING, NoReturn
 
 from emulator import __version__
 from emulator.options import ServeOptions
-from emulator.recording.commands import add_replay, add_transcript, do_replay, do_transcript
+from emulator.recording.commands import add_replay, add_transcript
 from emulator.scope_command import add_scope
 from emulator.serial_address import SerialAddress, parse_serial
-from emulator.state.command import add_state, do_state
+from emulator.state.command import add_state
 
 if TYPE_CHECKING:
     from emulator.server import Build
@@ -50,20 +51,8 @@ def main(arguments: Sequence[str] | None = None, *, build: Build | None = None) 
     if parsed.command is None:
         parser.print_help()
         return 0
-    if parsed.command == "commands":
-        return _show_commands(parsed)
-    if parsed.command == "scope":
-        from emulator.scope_command import do_scope
-
-        return do_scope(parsed, parser.error)
-    if parsed.command == "replay":
-        return do_replay(parsed)
-    if parsed.command == "transcript":
-        return do_transcript(parsed)
-    if parsed.command == "check":
-        return _do_check(parsed)
-    if parsed.command == "state":
-        return do_state(parsed)
+    if parsed.command != "serve":
+        return int(parsed.carry_out(parsed))
     options = _serve_options(parsed)
     from emulator.server import serve
 
@@ -137,6 +126,7 @@ def _add_commands(commands: argparse._SubParsersAction[_Parser]) -> None:
     )
     show.add_argument("name", nargs="?", metavar="NAME", help="one command or operand, in full")
     show.add_argument("--table", action="store_true", help="the whole conformance table, as Markdown")
+    show.set_defaults(carry_out=_show_commands)
 
 
 def _show_commands(parsed: argparse.Namespace) -> int:
@@ -163,6 +153,7 @@ def _add_check(commands: argparse._SubParsersAction[_Parser]) -> None:
         allow_abbrev=False,
     )
     check.add_argument("machines", nargs="+", metavar="MACHINE.toml", help="machine file")
+    check.set_defaults(carry_out=_do_check)
 
 
 def _do_check(parsed: argparse.Namespace) -> int:

@@ -58,10 +58,11 @@ def add_scope(commands: argparse._SubParsersAction[Any]) -> None:
     add("--pre-trigger", type=float, default=0.0, metavar="S", help="how much of it before the trigger (default: 0)")
     add("--every", type=int, default=1, metavar="N", help="one row every N servo samples (default: 1)")
     add("--list", action="store_true", help="list the signals that can be recorded")
+    scope.set_defaults(carry_out=_do_scope, fail=scope.error)
 
 
-def do_scope(parsed: argparse.Namespace, fail: Callable[[str], NoReturn]) -> int:
-    """Carry the command out; `fail` ends the program with one line and status 2."""
+def _do_scope(parsed: argparse.Namespace) -> int:
+    fail: Callable[[str], NoReturn] = parsed.fail
     from emulator.machine import MachineError
     from emulator.scope import ScopeError
 

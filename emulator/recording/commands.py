@@ -32,6 +32,7 @@ def add_replay(commands: Any) -> None:
     add("--machine", metavar="MACHINE.toml", help="replay on this machine instead of the recorded one")
     add("--line-timing-tolerance", type=_milliseconds, metavar="MS", help="times may differ by this much (default: "
         "exact; in a recording of a unit's line times do not count)")  # fmt: skip
+    replay.set_defaults(carry_out=do_replay)
 
 
 def add_transcript(commands: Any) -> None:
@@ -46,6 +47,7 @@ def add_transcript(commands: Any) -> None:
     transcript.add_argument("-o", dest="output", metavar="OUT", help="where to write it (default: stdout)")
     transcript.add_argument("--title", metavar="TEXT", help="what the session shows, one line (default: the file name)")
     transcript.add_argument("--machine", metavar="MACHINE.toml", help="the machine file of the transcript")
+    transcript.set_defaults(carry_out=do_transcript)
 
 
 def _add_source(parser: argparse.ArgumentParser) -> None:

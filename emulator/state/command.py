@@ -35,6 +35,7 @@ def add_state(commands: Any) -> None:
     state.add_argument("action", choices=("show", "export", "import", "clear"), metavar="show|export|import|clear")
     state.add_argument("text", nargs="?", default=STANDARD, metavar="TEXT", help="file of the text form; - is standard "
         "input or output (default: -)")  # fmt: skip
+    state.set_defaults(carry_out=do_state)
 
 
 def do_state(parsed: argparse.Namespace) -> int:
