@@ -18,8 +18,9 @@ from typing import Any, Final, Protocol
 import msgspec
 from msgspec import inspect
 
-from emulator.machine import Machine, TorqueDrive
+from emulator.machine import Machine, VelocityDrive
 from emulator.machine_settings import DEFAULT_SETTINGS
+from emulator.plant_tables import KINDS
 
 WORDS: Final = {
     "documented": "documented",
@@ -44,9 +45,10 @@ LIMITS: Final = (
     "profile's arithmetic, not of a measured unit.",
     "By default commands are answered at once. A real unit answers after its line's baud rate and after one or more "
     "system updates; a program that works here only because it is answered quickly will not work there.",
-    "Motor and load are a model with one time constant, without backlash, resonance, cogging, noise or temperature. "
-    "Gains tuned here are not gains for your machine.",
-    "The encoder is ideal: no noise, no missed counts, no limit reached unless one is asked for.",
+    "Motor and load are models (docs/plants.md) without cogging, oil springs or temperature, and by default a velocity "
+    "drive without resonance or backlash. Gains tuned here are not gains for your machine.",
+    "The encoder is ideal unless the machine file says otherwise: no noise, and no missed counts below its input's "
+    "greatest rate.",
     "Limits, ENABLE and drive faults follow the wiring of the machine file; contacts do not bounce.",
     "A virtual serial port has no baud rate, no modem lines, no framing errors and no line noise.",
     "What a unit remembers over power-off is taken from a later product's list.",
@@ -85,8 +87,13 @@ def entries(machine: Machine | None = None) -> list[Entry]:
     """Every value of `machine` (the default one if None) with its provenance, in file order; axis 2 is as axis 1."""
     machine = machine or Machine.default()
     found = _table_entries(machine, inspect.type_info(Machine), "")
-    other_plant = _table_entries(TorqueDrive(), inspect.type_info(TorqueDrive), "axis1.plant (torque_drive).")
-    return [*(entry for entry in found if not entry.key.startswith("axis2.")), *other_plant, *_default_entries()]
+    other_plants = [
+        entry
+        for kind, table in KINDS.items()
+        if table is not VelocityDrive
+        for entry in _table_entries(table(), inspect.type_info(table), f"axis1.plant ({kind}).")
+    ]
+    return [*(entry for entry in found if not entry.key.startswith("axis2.")), *other_plants, *_default_entries()]
 
 
 def render(rows: Iterable[CatalogueRow] = ()) -> str:

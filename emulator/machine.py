@@ -35,17 +35,25 @@ from emulator.machine_tables import (
     Rp240,
     Serial,
     Servo,
-    Table,
     Timing,
+    Wires,
+)
+from emulator.plant_tables import (
+    ElasticCoupling,
+    HydraulicCylinder,
     TorqueDrive,
     VelocityDrive,
-    Wires,
-    known,
+    fill_preset,
+    nan_keys,
+    plant_conflict,
 )
+from emulator.table_fields import Table, known
 
 __all__ = [
     "Axis",
+    "ElasticCoupling",
     "Encoder",
+    "HydraulicCylinder",
     "Machine",
     "MachineError",
     "TorqueDrive",
@@ -126,6 +134,7 @@ class Machine(Table, frozen=True):
         raw = _toml(text, name=name)
         _settle_wiring(raw, name=name)
         _settle_timing(raw, name=name)
+        _fill_presets(raw, name=name)
         raw["defaults"] = merged_settings(raw.get("defaults", {}), file=name)
         try:
             machine = msgspec.convert(raw, cls)
@@ -183,6 +192,22 @@ def _settle_timing(raw: dict[str, Any], *, name: str) -> None:
         check_command_name(command, table="timing.commands", file=name)
 
 
+def _fill_presets(raw: dict[str, Any], *, name: str) -> None:
+    for axis in ("axis1", "axis2"):
+        table = raw.get(axis)
+        if isinstance(table, dict):
+            fill_preset(table.get("plant"), key=f"{axis}.plant", file=name)
+            _refuse_two_scales(table.get("encoder"), key=f"{axis}.encoder", name=name)
+
+
+def _refuse_two_scales(encoder: Any, *, key: str, name: str) -> None:
+    if isinstance(encoder, dict) and "counts_per_rev" in encoder and encoder.get("counts_per_unit"):
+        found = repr(encoder["counts_per_unit"])
+        raise MachineError(
+            file=name, key=f"{key}.counts_per_unit", found=found, allowed="nothing beside counts_per_rev"
+        )
+
+
 def _prefer(raw: dict[str, Any], path: list[str], values: dict[str, Any]) -> None:
     table: Any = raw
     for step in path:
@@ -199,12 +224,14 @@ def _check_together(machine: Machine, *, name: str) -> None:
 
 def _conflicts(machine: Machine) -> list[tuple[str, str, str]]:
     return [
+        *((key, "nan", "a number") for key in nan_keys(machine)),
         *_memory_conflicts(machine),
         *_wire_conflicts(machine),
         *_rate_conflicts(machine),
         *_range_conflicts(machine),
         *_travel_conflicts(machine),
         *_serial_conflicts(machine),
+        *_plant_conflicts(machine),
     ]
 
 
@@ -253,6 +280,20 @@ def _travel_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
         if not no_home and not travel.home_from_rev < travel.home_to_rev:
             found = f"{travel.home_to_rev:g}"
             conflicts.append((f"{key}.home_to_rev", found, f"above home_from_rev, {travel.home_from_rev:g}"))
+    return conflicts
+
+
+def _plant_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
+    conflicts = []
+    for number, axis in enumerate(machine.axes, start=1):
+        if (conflict := plant_conflict(axis.plant)) is not None:
+            key, found, allowed = conflict
+            conflicts.append((f"axis{number}.plant.{key}", found, allowed))
+        if axis.encoder.counts_per_unit and not isinstance(axis.plant, HydraulicCylinder):
+            found = str(axis.encoder.counts_per_unit)
+            conflicts.append(
+                (f"axis{number}.encoder.counts_per_unit", found, "nothing unless a hydraulic_cylinder moves")
+            )
     return conflicts
 
 

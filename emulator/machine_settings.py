@@ -13,7 +13,7 @@ from difflib import get_close_matches
 from typing import Any, Final
 
 from emulator.machine_errors import MachineError, nearest
-from emulator.machine_tables import Provenance
+from emulator.table_fields import Provenance
 from protocol.catalogue import CommandRow, commands, rows
 from protocol.command import parse_command
 from protocol.errors import INVALID_DATA, CommandError

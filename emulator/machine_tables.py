@@ -13,35 +13,14 @@ APEX615n Installation Guide, GemCR = Gemini Command Reference, KB = Parker knowl
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Final, Literal
 
 import msgspec
 
-Provenance = Literal["documented", "host", "inferred", "assumed", "design"]
+from emulator.plant_tables import PlantTable, VelocityDrive
+from emulator.table_fields import Table, known
+
 Contact = Literal["closed", "open"]
-
-
-def known(
-    description: str,
-    provenance: Provenance,
-    confidence: str = "",
-    source: str = "",
-    *,
-    acts: bool = True,
-    **limits: Any,
-) -> msgspec.Meta:
-    """Meta of one field: what it is (with its unit), how sure we are, and the limits msgspec shall enforce.
-
-    `confidence` is H, M or L for inferred and assumed values, else empty. `acts` is False for a value that is kept
-    for a part of the unit that is not built: the ledger says so.
-    """
-    extra = {"provenance": provenance, "confidence": confidence, "source": source, "acts": acts}
-    return msgspec.Meta(description=description, extra=extra, **limits)
-
-
-class Table(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """Common shape of all tables: immutable, keyword-only, unknown keys refused."""
-
 
 Line = Annotated[str, msgspec.Meta(pattern=r"^[ -~]*\Z")]
 
@@ -335,32 +314,9 @@ class Servo(Table, frozen=True):
 class EncoderInput(Table, frozen=True):
     """The encoder input stage, common to both axes."""
 
-    max_rate: Annotated[float, known("post-quadrature counts per second", "assumed", "L", gt=0, acts=False)] = (
-        1_600_000.0
-    )
-
-
-class VelocityDrive(Table, frozen=True, tag_field="kind", tag="velocity_drive"):
-    """A drive that closes its own velocity loop; the command voltage asks for a speed."""
-
-    speed_per_volt_rev_s: Annotated[float, known("speed asked by one volt, rev/s", "design", gt=0)] = 10.0
-    loop_time_constant_s: Annotated[float, known("lag of the drive's velocity loop, s", "design", gt=0, le=10)] = 0.002
-    command_lag_s: Annotated[float, known("lag of the command input, s", "design", ge=0, le=10)] = 0.0003
-    max_acceleration_rev_s2: Annotated[float, known("peak torque over inertia, rev/s2; inf = none", "design", gt=0)] = (
-        5000.0
-    )
-    coast_time_constant_s: Annotated[float, known("run-down when shut down, s", "design", gt=0, le=1000)] = 0.05
-
-
-class TorqueDrive(Table, frozen=True, tag_field="kind", tag="torque_drive"):
-    """A torque amplifier with motor and load; the command voltage asks for a torque."""
-
-    torque_per_volt_nm: Annotated[float, known("torque asked by one volt, Nm", "design", gt=0)] = 0.5
-    inertia_kg_m2: Annotated[float, known("motor plus load, kg m2", "design", gt=0)] = 2.0e-4
-    viscous_nm_s_per_rev: Annotated[float, known("viscous friction, Nm per rev/s", "design", ge=0)] = 0.001
-    coulomb_nm: Annotated[float, known("Coulomb friction, Nm", "design", ge=0)] = 0.0
-    load_torque_nm: Annotated[float, known("constant load torque, Nm, positive turns positive", "design")] = 0.0
-    peak_torque_nm: Annotated[float, known("largest torque of the drive, Nm; inf = none", "design", gt=0)] = 5.0
+    max_rate: Annotated[
+        float, known("post-quadrature counts per second; counts beyond are lost, inf = none", "assumed", "L", gt=0)
+    ] = 1_600_000.0
 
 
 class Encoder(Table, frozen=True):
@@ -371,17 +327,40 @@ class Encoder(Table, frozen=True):
     )
     phase: Annotated[float, known("where in a count the shaft stands at start, counts", "design", ge=0, lt=1)] = 0.0
     index_phase: Annotated[float, known("where in a revolution the Z pulse lies, rev", "design", ge=0, lt=1)] = 0.5
+    counts_per_unit: Annotated[
+        int,
+        known(
+            "counts per inch, mm or whatever a hydraulic cylinder moves in, in place of counts_per_rev; 0 = not given",
+            "design",
+            ge=0,
+            le=100_000_000,
+        ),
+    ] = 0
+    at: Annotated[Literal["motor", "load"], known("which end of coupling and backlash it sits on", "design")] = "motor"
+    noise_counts: Annotated[
+        float, known("noise of its position, counts rms, drawn anew every servo sample", "design", ge=0, le=1_000_000)
+    ] = 0.0
+    noise_seed: Annotated[
+        int, known("which noise; the same seed gives the same run again", "design", ge=0, le=2_147_483_647)
+    ] = 0
+
+    @property
+    def counts(self) -> int:
+        """Counts per revolution, or per unit of a linear axis."""
+        return self.counts_per_unit or self.counts_per_rev
 
 
 class AnalogSensor(Table, frozen=True):
-    """The position sensor at the ANI feedback input of one axis (`options.ani`); it follows the shaft."""
+    """The position sensor at the ANI feedback input of one axis (`options.ani`); it follows the load."""
 
-    volts_at_zero: Annotated[float, known("voltage where the shaft stands at start, V", "design", ge=-10, le=10)] = 0.0
-    volts_per_rev: Annotated[float, known("what one revolution of the shaft adds, V", "design")] = 1.0
+    volts_at_zero: Annotated[float, known("voltage where the load stands at start, V", "design", ge=-10, le=10)] = 0.0
+    volts_per_rev: Annotated[
+        float, known("what one revolution of the load adds, V", "design", ge=-1_000_000, le=1_000_000)
+    ] = 1.0
 
 
 class Travel(Table, frozen=True):
-    """Where the switches of one axis sit, revolutions of the shaft from where it stands at start.
+    """Where the switches of one axis sit, revolutions of the load from where it stands at start.
 
     An operated switch changes its contact over from the state `wires` gives it.
     """
@@ -412,7 +391,7 @@ class AxisWires(Table, frozen=True):
 class Axis(Table, frozen=True):
     """What is connected to one axis."""
 
-    plant: Annotated[VelocityDrive | TorqueDrive, known("drive, motor and load", "design")] = VelocityDrive()
+    plant: Annotated[PlantTable, known("drive, motor and load", "design")] = VelocityDrive()
     encoder: Annotated[Encoder, known("the encoder", "design")] = Encoder()
     wires: Annotated[AxisWires, known("its contacts", "design")] = AxisWires()
     travel: Annotated[Travel, known("its switches along the travel", "design")] = Travel()

@@ -13,6 +13,7 @@ from emulator.controller import Controller
 from emulator.controller import words as status
 from emulator.controller.wires.panel_commands import press, release
 from emulator.controller.wires.thumbwheel_bank import dial
+from emulator.engine import EncoderWiring
 from emulator.engine.trace import Source
 
 Value = float | int | bool | str
@@ -82,7 +83,10 @@ AxisRead = Callable[[Controller, int], Value]
 
 @dataclass(frozen=True, slots=True)
 class AxisSignal:
-    """A signal every axis has; ``field``, ``minus`` and ``mask`` say what the scope records (see ``trace.Source``)."""
+    """A signal every axis has; ``field``, ``minus`` and ``mask`` say what the scope records (see ``trace.Source``).
+
+    ``field_without_load`` takes the place of ``field`` on an axis whose load turns rigidly with its motor.
+    """
 
     name: str
     sentence: str
@@ -91,15 +95,17 @@ class AxisSignal:
     field: str
     minus: str | None = None
     mask: int = 0
+    field_without_load: str | None = None
 
-    def of(self, axis_index: int) -> Signal:
+    def of(self, axis_index: int, *, load_apart: bool) -> Signal:
         """The signal of one axis."""
+        field = self.field if load_apart or self.field_without_load is None else self.field_without_load
         return Signal(
             f"axis{axis_index + 1}.{self.name}",
             f"axis {axis_index + 1}: {self.sentence}",
             self.unit,
             lambda controller: self.read(controller, axis_index),
-            Source(self.field, axis_index, self.minus, self.mask),
+            Source(field, axis_index, self.minus, self.mask),
         )
 
 
@@ -138,10 +144,18 @@ AXIS_SIGNALS: tuple[AxisSignal, ...] = (
     ),
     AxisSignal(
         "position.true",
-        "where the shaft really is",
+        "where the motor's shaft really is",
         "rev",
         lambda c, i: c.engine.true_position_rev(i),
         "true_position",
+    ),
+    AxisSignal(
+        "position.load",
+        "where the load really is, behind coupling and backlash",
+        "rev",
+        lambda c, i: c.engine.load_position_rev(i),
+        "load_position",
+        field_without_load="true_position",
     ),
     AxisSignal(
         "position.error",
@@ -265,7 +279,7 @@ def describe_signals(controller: Controller) -> dict[str, Signal]:
     signals = {signal.name: signal for signal in UNIT_SIGNALS}
     for axis_index in range(controller.settings.axes):
         for row in (*AXIS_SIGNALS, *STATUS_BITS):
-            signal = row.of(axis_index)
+            signal = row.of(axis_index, load_apart=controller.engine.plant(axis_index).load_apart)
             signals[signal.name] = signal
     for wire in controller.wiring.names:
         signals[f"wire.{wire}"] = _wire_signal(controller, wire)
@@ -300,6 +314,62 @@ def _damage_memory(controller: Controller) -> None:
 def _advance_time(controller: Controller, seconds: float) -> None:
     controller.advance(controller.now_ns + round(seconds * NS_PER_S))
 
+
+def _axis_index(controller: Controller, axis: int) -> int:
+    if not 1 <= axis <= controller.settings.axes:
+        raise ValueError(f"axis must be 1 to {controller.settings.axes}, not {axis}")
+    return axis - 1
+
+
+def _set_load(controller: Controller, axis: int, torque: float) -> None:
+    controller.engine.set_load(_axis_index(controller, axis), torque)
+
+
+def _set_friction(controller: Controller, axis: int, torque: float) -> None:
+    controller.engine.set_friction(_axis_index(controller, axis), torque)
+
+
+def _wire_encoder(controller: Controller, axis: int, wiring: str) -> None:
+    if wiring not in ENCODER_WIRINGS:
+        raise ValueError(f"wiring must be {' or '.join(ENCODER_WIRINGS)}, not {wiring!r}")
+    controller.engine.wire_encoder(_axis_index(controller, axis), ENCODER_WIRINGS[wiring])
+
+
+def _slip_encoder(controller: Controller, axis: int, counts: int) -> None:
+    controller.engine.slip_encoder(_axis_index(controller, axis), counts)
+
+
+ENCODER_WIRINGS = {wiring.name.lower(): wiring for wiring in EncoderWiring}
+
+AXIS = Parameter("axis", int, "1 or 2")
+
+MACHINE_ACTIONS: tuple[tuple[str, str, Parameter, Callable[..., None]], ...] = (
+    (
+        "set_load",
+        "change the load torque on an axis; positive acts against positive motion, as gravity on a lifted load does",
+        Parameter("torque", float, "from now on", unit="Nm"),
+        _set_load,
+    ),
+    (
+        "set_friction",
+        "change the dry friction of an axis",
+        Parameter("torque", float, "from now on", unit="Nm"),
+        _set_friction,
+    ),
+    (
+        "wire_encoder",
+        "connect an encoder rightly, with its channels exchanged, or not at all: then nothing is counted",
+        Parameter("wiring", str, "normal, reversed or open"),
+        _wire_encoder,
+    ),
+    (
+        "slip_encoder",
+        "turn an encoder on its shaft by some counts",
+        Parameter("counts", int, "forwards positive", unit="counts"),
+        _slip_encoder,
+    ),
+)
+"""What can be changed about drives, loads and encoders while they run; each takes the axis as well."""
 
 ACTIONS: Mapping[str, Action] = {
     action.name: action
@@ -346,5 +416,6 @@ ACTIONS: Mapping[str, Action] = {
             (Parameter("seconds", float, "how long", unit="s"),),
             _advance_time,
         ),
+        *(Action(name, sentence, (AXIS, parameter), do) for name, sentence, parameter, do in MACHINE_ACTIONS),
     )
 }

@@ -2,24 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from decimal import Decimal
 
 from emulator.controller.changes import Changes
 from emulator.controller.settings import Settings
-from emulator.engine import (
-    AnalogSensor,
-    AxisHardware,
-    Engine,
-    ServoRates,
-    TorqueDrive,
-    Travel,
-    UnitFactors,
-    VelocityDrive,
-)
+from emulator.engine import AnalogSensor, AxisHardware, EncoderTraits, Engine, ServoRates, Travel, UnitFactors
 from emulator.engine.machine_code import OnBuild
 from emulator.machine import Axis, Machine
-from emulator.machine import TorqueDrive as TorqueDriveTable
-from emulator.machine import VelocityDrive as VelocityDriveTable
+from emulator.plant_tables import engine_plant
 
 
 def build_settings(machine: Machine, changes: Changes) -> Settings:
@@ -37,7 +28,10 @@ def build_settings(machine: Machine, changes: Changes) -> Settings:
 def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None) -> Engine:
     """The servo engine with the machine's axes."""
     return Engine(
-        [axis_hardware(axis, ani_fitted=machine.options.ani) for axis in machine.axes],
+        [
+            axis_hardware(axis, max_rate_counts_s=machine.encoder.max_rate, ani_fitted=machine.options.ani)
+            for axis in machine.axes
+        ],
         rates=rates_in_force(machine, settings),
         dac_bits=machine.servo.dac_bits,
         on_build=on_build,
@@ -65,14 +59,14 @@ def rates_in_force(machine: Machine, settings: Settings) -> ServoRates:
     return ServoRates.from_us(servo_us=row.servo_us, trajectory_us=row.trajectory_us, system_us=row.system_us)
 
 
-def axis_hardware(axis: Axis, *, ani_fitted: bool = False) -> AxisHardware:
+def axis_hardware(axis: Axis, *, max_rate_counts_s: float = math.inf, ani_fitted: bool = False) -> AxisHardware:
     """What an axis is connected to, in the engine's terms."""
-    switches = axis.travel
+    switches, encoder = axis.travel, axis.encoder
     return AxisHardware(
-        plant=plant(axis.plant),
-        counts_per_rev=axis.encoder.counts_per_rev,
-        encoder_phase=axis.encoder.phase,
-        index_phase_rev=axis.encoder.index_phase,
+        plant=engine_plant(axis.plant),
+        counts_per_rev=encoder.counts,
+        encoder_phase=encoder.phase,
+        index_phase_rev=encoder.index_phase,
         travel=Travel(
             positive_limit_rev=switches.positive_limit_rev,
             negative_limit_rev=switches.negative_limit_rev,
@@ -80,24 +74,10 @@ def axis_hardware(axis: Axis, *, ani_fitted: bool = False) -> AxisHardware:
             home_to_rev=switches.home_to_rev,
         ),
         ani=AnalogSensor(axis.ani.volts_at_zero, axis.ani.volts_per_rev) if ani_fitted else None,
-    )
-
-
-def plant(table: VelocityDriveTable | TorqueDriveTable) -> VelocityDrive | TorqueDrive:
-    """A drive and its load, in the engine's terms."""
-    if isinstance(table, VelocityDriveTable):
-        return VelocityDrive(
-            speed_per_volt_rev_s=table.speed_per_volt_rev_s,
-            loop_time_constant_s=table.loop_time_constant_s,
-            command_lag_s=table.command_lag_s,
-            max_acceleration_rev_s2=table.max_acceleration_rev_s2,
-            coast_time_constant_s=table.coast_time_constant_s,
-        )
-    return TorqueDrive(
-        torque_per_volt_nm=table.torque_per_volt_nm,
-        inertia_kg_m2=table.inertia_kg_m2,
-        viscous_nm_s_per_rev=table.viscous_nm_s_per_rev,
-        coulomb_nm=table.coulomb_nm,
-        load_torque_nm=table.load_torque_nm,
-        peak_torque_nm=table.peak_torque_nm,
+        encoder=EncoderTraits(
+            on_load=encoder.at == "load",
+            noise_counts_rms=encoder.noise_counts,
+            noise_seed=encoder.noise_seed,
+            max_rate_counts_s=max_rate_counts_s,
+        ),
     )

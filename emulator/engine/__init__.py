@@ -5,9 +5,11 @@ profiles it runs.
 """
 
 from .control_law import Gains, UnitFactors
-from .engine import AnalogSensor, AxisHardware, DriveShutDown, Engine
+from .encoder import AnalogSensor, EncoderTraits, EncoderWiring
+from .engine import DriveShutDown, Engine
 from .events import ENABLE_MASK, Event, Relation, Signal, Wire, wire_mask
-from .plants import Plant, TorqueDrive, VelocityDrive
+from .machinery import AxisHardware
+from .plants import ElasticCoupling, HydraulicCylinder, Plant, PlantError, TorqueDrive, VelocityDrive
 from .profile import (
     InvalidSCurve,
     Segment,
@@ -29,11 +31,16 @@ __all__ = [
     "AnalogSensor",
     "AxisHardware",
     "DriveShutDown",
+    "ElasticCoupling",
+    "EncoderTraits",
+    "EncoderWiring",
     "Engine",
     "Event",
     "Gains",
+    "HydraulicCylinder",
     "InvalidSCurve",
     "Plant",
+    "PlantError",
     "RateTable",
     "Relation",
     "Segment",

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from .engine import Engine
 from .kernels import Records
+from .machinery import LOAD_FIELDS
 from .memory import Memory
 from .plants import Plant
 from .trace import Column, Source
@@ -48,11 +49,15 @@ class Batch:
             record = self._memory.plants[place + step]
             for name, value in fields.items():
                 record[name] = value
+        for name, value in self._template.load_fields(axis_index, plant).items():
+            self.axes[name][lane, axis_index] = value
 
     def copy_plant(self, axis_index: int, *, source: int, lanes: slice) -> None:
         """Give a range of lanes the drive and load of lane `source`."""
         plants = self._memory.plants.reshape(self.count, self._axis_count, 2)
         plants[lanes, axis_index] = plants[source, axis_index]
+        for name in LOAD_FIELDS:
+            self.axes[name][lanes, axis_index] = self.axes[name][source, axis_index]
 
     def run(self, until_ns: int) -> None:
         """Run all lanes to a virtual time, without the interpreter lock."""

@@ -11,7 +11,8 @@ from __future__ import annotations
 import math
 
 from .control_law import closed_loop, dither, limited, open_loop
-from .converter import OPEN_LOOP, convert_output, take_feedback
+from .converter import convert_output
+from .encoder import OPEN_LOOP, take_feedback
 from .events import (
     EVENT_HARD_LIMIT,
     EVENT_MOVE_ENDED,

@@ -10,15 +10,15 @@ Positions are *reported* counts, that is after `PSET`, velocities counts per sec
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 from .control_law import Gains, UnitFactors, gain_fields
-from .converter import ANI_SOURCE, DEFAULT_DAC_BITS, ENCODER_SOURCE, OPEN_LOOP, dac_fields, read_ani
-from .events import MAX_AXES, Event, Relation, Signal, Wire, wire_mask
-from .layout import PLANT, UNIT, word_of
+from .converter import DEFAULT_DAC_BITS, dac_fields
+from .encoder import ANI_SOURCE, ENCODER_SOURCE, OPEN_LOOP
+from .events import MAX_AXES, Event, Relation, Signal
+from .layout import UNIT, word_of
 from .machine_code import Calls, Kernel, OnBuild, load_kernel
+from .machinery import AxisHardware, Machinery
 from .memory import Memory, write_fields
-from .plants import Plant, VelocityDrive
 from .profile import Segments, State, evaluate, profile_duration
 from .rates import NS_PER_S, ServoRates
 from .readings import (
@@ -35,9 +35,8 @@ from .readings import (
     axis_word,
 )
 from .status import CLEARED_BY_ENABLE
-from .terminals import Terminals
 from .trace import Scope
-from .travel import Capture, Travel, operate_switches
+from .travel import Capture
 from .watches import WATCH_SLOTS
 
 SHORT_RUN_SAMPLES = 40
@@ -55,7 +54,6 @@ _TO_TRAJECTORY, _TO_SYSTEM = (word_of(UNIT, name) for name in ("samples_to_traje
 _FIRED = word_of(UNIT, "fired_watches")
 _START, _SOURCE = axis_word("profile_start_ns"), axis_word("feedback_source")
 _ANI_FITTED = axis_word("ani_fitted")
-_ENCODER_SIGN, _OUTPUT_SIGN = axis_word("encoder_sign"), axis_word("output_sign")
 _LATCHED, _EXTRA, _STATUS = (axis_word(name) for name in ("latched_status", "extra_status", "status"))
 _EVENTS = axis_word("events")
 
@@ -73,36 +71,7 @@ class DriveShutDown(RuntimeError):
     """A profile was started on an axis whose drive is off."""
 
 
-@dataclass(frozen=True, slots=True)
-class AnalogSensor:
-    """A position sensor at an ANI feedback input: its voltage with the shaft at 0 rev, and what a revolution adds."""
-
-    volts_at_zero: float = 0.0
-    volts_per_rev: float = 0.0
-
-    def fields(self) -> dict[str, float]:
-        """Fields of the axis record."""
-        return {"ani_rest_v": self.volts_at_zero, "ani_volts_per_rev": self.volts_per_rev}
-
-
-@dataclass(frozen=True, slots=True)
-class AxisHardware:
-    """What one axis is connected to: drive and load, and an encoder counted post-quadrature."""
-
-    plant: Plant = field(default_factory=VelocityDrive)
-    counts_per_rev: int = 4000
-    encoder_phase: float = 0.0
-    """Position of the count edges within a count, 0 to 1."""
-    start_position_rev: float = 0.0
-    index_phase_rev: float = 0.0
-    """Where in each revolution the index (Z) pulse lies, 0 to 1."""
-    travel: Travel = field(default_factory=Travel)
-    """The switches that follow the shaft."""
-    ani: AnalogSensor | None = None
-    """The sensor at the ANI feedback input; None: the option is not fitted."""
-
-
-class Engine(Terminals):
+class Engine(Machinery):
     """The servo of one unit. Drives are off, wires open and gains those of power-up until set."""
 
     def __init__(
@@ -120,9 +89,7 @@ class Engine(Terminals):
         the terminals; more than a sample counts as a whole one."""
         if not 1 <= len(axes) <= MAX_AXES:
             raise ValueError(f"a unit has 1 to {MAX_AXES} axes, not {len(axes)}")
-        super().__init__(Memory(len(axes)))
-        self._plants = [axis.plant for axis in axes]
-        self._output_delay_s = output_delay_s
+        super().__init__(Memory(len(axes)), output_delay_s=output_delay_s)
         self._profiles: list[Segments] = [() for _ in axes]
         self._gains = [Gains() for _ in axes]
         self._factors = unit_factors or UnitFactors()
@@ -144,30 +111,10 @@ class Engine(Terminals):
         self._calls: Calls = self._kernel.bind(self._memory)
 
     def _power_up(self, axis_index: int, hardware: AxisHardware) -> None:
-        start = hardware.start_position_rev * hardware.counts_per_rev + hardware.encoder_phase
+        self._connect(axis_index, hardware)
         self._write(
-            axis_index,
-            encoder_sign=1,
-            output_sign=1,
-            feedback_source=1,
-            counts_per_rev=hardware.counts_per_rev,
-            encoder_phase=hardware.encoder_phase,
-            encoder_reading=start // 1,
-            ani_fitted=hardware.ani is not None,
-            true_position=hardware.start_position_rev,
-            position_error_limit=DEFAULT_POSITION_ERROR_LIMIT,
-            output_limit_v=10.0,
-            hard_limit_enable=3,
-            positive_limit_mask=wire_mask(Wire.POSITIVE_LIMIT, axis_index),
-            negative_limit_mask=wire_mask(Wire.NEGATIVE_LIMIT, axis_index),
-            home_mask=wire_mask(Wire.HOME, axis_index),
-            home_active_level=1,
-            index_reading=(hardware.index_phase_rev * hardware.counts_per_rev + hardware.encoder_phase) // 1,
-            **hardware.travel.fields(),
-            **(hardware.ani or AnalogSensor()).fields(),
+            axis_index, position_error_limit=DEFAULT_POSITION_ERROR_LIMIT, output_limit_v=10.0, hard_limit_enable=3
         )
-        read_ani(self._memory.axes[axis_index])
-        operate_switches(self._memory.units[0], self._memory.axes[axis_index])
         self.set_gains(axis_index, Gains())
         self.set_target_zone(axis_index, distance_counts=50, velocity_counts_s=hardware.counts_per_rev, timeout_ms=1000)
 
@@ -239,23 +186,7 @@ class Engine(Terminals):
         }
         write_fields(self._memory.unit, UNIT, fields)
         self.scope.note_rates()
-        for axis_index, plant in enumerate(self._plants):
-            self.set_plant(axis_index, plant)
-
-    def set_plant(self, axis_index: int, plant: Plant) -> None:
-        """Change the drive and load of an axis while it runs; its position and speed go on."""
-        self._plants[axis_index] = plant
-        for place, fields in enumerate(self.plant_steps(plant), start=2 * axis_index):
-            write_fields(self._memory.plant[place], PLANT, fields)
-
-    def plant_steps(self, plant: Plant) -> tuple[dict[str, float], dict[str, float]]:
-        """Fields of a plant's two records: before an output reaches the terminals, and after."""
-        period_s = self._rates.servo_ns / NS_PER_S
-        before_s = min(self._output_delay_s, period_s)
-        before, after = (
-            {"period_s": s, **(plant.fields(s) if s > 0.0 else {})} for s in (before_s, period_s - before_s)
-        )
-        return before, after
+        self._set_steps()
 
     # Drive
 
@@ -367,13 +298,6 @@ class Engine(Terminals):
     def set_dither(self, axis_index: int, *, amplitude_v: float, half_period_samples: int) -> None:
         """SDTAMP, V, and SDTFR, servo samples in half a period of the square wave; 0 = none."""
         self._write(axis_index, dither_v=amplitude_v, dither_samples=half_period_samples, dither_sample=0)
-
-    def set_polarity(self, axis_index: int, *, encoder: int | None = None, command: int | None = None) -> None:
-        """ENCPOL and CMDDIR, 0 normal or 1 reversed. Positions do not jump, only counting and output turn round."""
-        ints = self._ints[axis_index]
-        command_sign = ints[_OUTPUT_SIGN] if command is None else 1 - 2 * command
-        encoder_sign = ints[_ENCODER_SIGN] * ints[_OUTPUT_SIGN] if encoder is None else 1 - 2 * encoder
-        self._write(axis_index, output_sign=command_sign, encoder_sign=encoder_sign * command_sign)
 
     def set_position(self, axis_index: int, counts: int) -> None:
         """PSET: the present commanded position becomes `counts`; the feedback shifts with it, the error stays.

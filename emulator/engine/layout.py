@@ -49,7 +49,9 @@ AXIS_FIELDS: Fields = (
     # drive and loop
     ("enabled", INT, "1 = drive on"),
     ("feedback_source", INT, "SFB code: 0 open loop, 1 encoder, 2 ANI"),
-    ("encoder_sign", INT, "+1 or -1: ENCPOL times CMDDIR"),
+    ("encoder_sign", INT, "+1, -1 or 0: ENCPOL times CMDDIR times the encoder's wiring"),
+    ("encoder_polarity", INT, "+1 or -1: ENCPOL"),
+    ("encoder_wiring", INT, "+1 as it should be, -1 channels exchanged, 0 nothing arrives"),
     ("output_sign", INT, "+1 or -1: CMDDIR"),
     # trajectory
     ("profile_active", INT, "1 = a profile is running, or waits for its first trajectory update"),
@@ -65,6 +67,12 @@ AXIS_FIELDS: Fields = (
     # feedback
     ("counts_per_rev", FLOAT, "encoder counts (post-quadrature) per revolution"),
     ("encoder_phase", FLOAT, "position of the encoder's count edges, in counts, 0 to 1"),
+    ("encoder_easy_step", FLOAT, "largest step since the last sample that is simply counted, counts; below 0 = none"),
+    ("encoder_on_load", INT, "1 = it sits on the load, 0 = on the motor's shaft"),
+    ("encoder_noise", FLOAT, "noise of its position, counts rms"),
+    ("noise_state", INT, "state of the noise's random sequence"),
+    ("encoder_step_limit", FLOAT, "most counts the input can take in a servo sample"),
+    ("encoder_credit", FLOAT, "fraction of a count the input could still have taken"),
     ("encoder_counts", INT, "raw encoder position, counts"),
     ("encoder_offset_counts", INT, "PSET offset of the encoder, counts"),
     ("encoder_reading", INT, "counts of the encoder itself at the last sample, before polarity"),
@@ -140,16 +148,42 @@ AXIS_FIELDS: Fields = (
     ("pending_events", INT, "events since the last system update"),
     ("events", INT, "events reported and not yet read"),
     # plant: state
-    ("true_position", FLOAT, "position of the shaft, rev"),
-    ("true_velocity", FLOAT, "velocity of the shaft, rev/s"),
+    ("true_position", FLOAT, "position of the motor's shaft or of the piston, rev"),
+    ("true_velocity", FLOAT, "velocity of the same, rev/s"),
+    ("load_apart", INT, "1 = the load can stand elsewhere than the shaft"),
+    ("half_backlash", FLOAT, "half the play between shaft and load, rev"),
+    ("load_position", FLOAT, "position of a load that is apart, behind coupling and backlash, rev"),
     ("lagged_command", FLOAT, "speed command behind the drive's input lag, rev/s"),
+    ("twist", FLOAT, "motor ahead of the load's inertia on a springy shaft, rev"),
+    ("load_velocity", FLOAT, "velocity of the load's inertia on a springy shaft, rev/s"),
+    ("spool", FLOAT, "position of a cylinder's valve spool, V"),
+    ("spool_rate", FLOAT, "its velocity over the valve's natural frequency, V"),
 )
 
+
+def _coupling_fields(prefix: str) -> Fields:
+    """What two inertias on a springy shaft do in a step, per cause at its beginning."""
+    effects = {"twist": "rev", "motor_speed": "rev/s", "load_speed": "rev/s", "travel": "rev, of the motor"}
+    causes = {
+        "twist": "rev of twist",
+        "motor_speed": "rev/s of the motor",
+        "load_speed": "rev/s of the load",
+        "motor_torque": "Nm on the motor",
+        "load_torque": "Nm on the load",
+    }
+    return tuple(
+        (f"{prefix}_{effect}_per_{cause}", FLOAT, f"{effect.replace('_', ' ')}, {unit}, per {per}")
+        for effect, unit in effects.items()
+        for cause, per in causes.items()
+    )
+
+
 PLANT_FIELDS: Fields = (
-    ("kind", INT, "0 velocity-mode drive, 1 torque-mode drive"),
+    ("kind", INT, "0 velocity-mode drive, 1 torque-mode drive, 2 elastic coupling, 3 hydraulic cylinder"),
     ("period_s", FLOAT, "length of the step these coefficients are for, s; 0 = no such step"),
     # velocity-mode drive
     ("speed_per_volt", FLOAT, "speed command, rev/s per V"),
+    ("speed_droop", FLOAT, "speed lost to the load torque, rev/s"),
     ("lag_decay", FLOAT, "share of the input lag's state that is left"),
     ("loop_decay", FLOAT, "share of the speed deviation that is left"),
     ("lag_to_speed", FLOAT, "speed per rev/s of input lag deviation"),
@@ -158,15 +192,33 @@ PLANT_FIELDS: Fields = (
     ("speed_step_limit", FLOAT, "largest change of speed in a step that the peak torque allows, rev/s"),
     ("coast_decay", FLOAT, "share of the speed that is left, drive shut down"),
     ("coast_to_position", FLOAT, "position per rev/s of speed, drive shut down, s"),
-    # torque-mode drive
-    ("torque_per_volt", FLOAT, "torque of the drive, Nm per V"),
+    # torque-mode drive, elastic coupling
+    ("torque_per_volt", FLOAT, "torque of the drive at rest, Nm per V"),
     ("peak_torque", FLOAT, "largest torque of the drive, Nm"),
     ("load_torque", FLOAT, "torque against positive motion, Nm"),
-    ("coulomb_torque", FLOAT, "torque of dry friction, Nm"),
+    ("coulomb_torque", FLOAT, "torque of dry friction, of the load if that is apart, Nm"),
     ("speed_decay", FLOAT, "share of the speed that viscous friction leaves"),
     ("speed_to_position", FLOAT, "position per rev/s of speed, s"),
     ("torque_to_speed", FLOAT, "speed per Nm, rev/s"),
     ("torque_to_position", FLOAT, "position per Nm, rev"),
+    # elastic coupling: `loose` with the motor's torque given, `held` with the drive's speed loop closed
+    ("motor_coulomb_torque", FLOAT, "torque of the motor's dry friction, Nm"),
+    ("speed_loop_gain", FLOAT, "torque of a velocity-mode drive per error of speed, Nm s/rev; 0 = torque mode"),
+    *_coupling_fields("loose"),
+    *_coupling_fields("held"),
+    # hydraulic cylinder
+    ("extend_gain", FLOAT, "speed outwards, units/s per V beyond the overlap"),
+    ("retract_gain", FLOAT, "speed inwards, the same"),
+    ("overlap", FLOAT, "travel of the spool either way before anything flows, V"),
+    ("max_speed", FLOAT, "speed at the pump's full flow, units/s"),
+    ("extended_stop", FLOAT, "position of the outer end stop, units"),
+    ("retracted_stop", FLOAT, "position of the inner end stop, units"),
+    ("spool_per_spool", FLOAT, "share of the spool's deviation that is left"),
+    ("spool_per_rate", FLOAT, "the spool's deviation per rate"),
+    ("rate_per_spool", FLOAT, "the spool's rate per deviation"),
+    ("rate_per_rate", FLOAT, "share of the spool's rate that is left"),
+    ("mean_per_spool", FLOAT, "mean deviation over the step per deviation"),
+    ("mean_per_rate", FLOAT, "the same per rate"),
 )
 
 SEGMENT_FIELDS: Fields = (

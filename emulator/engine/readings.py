@@ -6,7 +6,7 @@ reported counts (after `PSET`), velocities counts per second; `axis_index` count
 
 from __future__ import annotations
 
-from .converter import ANI_COUNTS_PER_VOLT
+from .encoder import ANI_COUNTS_PER_VOLT
 from .layout import AXIS, word_of
 from .memory import Memory
 
@@ -24,6 +24,7 @@ SETTLING_TIME = axis_word("settling_ns")
 VELOCITY, ACCELERATION = axis_word("commanded_velocity"), axis_word("commanded_acceleration")
 ACTUAL_VELOCITY, DAC = axis_word("actual_velocity"), axis_word("dac_v")
 TRUE_POSITION, TRUE_VELOCITY = axis_word("true_position"), axis_word("true_velocity")
+LOAD_POSITION, LOAD_APART = axis_word("load_position"), axis_word("load_apart")
 
 CAPTURED = axis_word("captured_counts")
 READING, INDEX_READING, COUNTS_PER_REV = (
@@ -128,8 +129,12 @@ class AxisReadings:
         return (ints[READING] - ints[INDEX_READING]) % self._floats[axis_index][COUNTS_PER_REV] == 0
 
     def true_position_rev(self, axis_index: int) -> float:
-        """Where the shaft really is, rev."""
+        """Where the motor's shaft (or the piston) really is, rev."""
         return self._floats[axis_index][TRUE_POSITION]
+
+    def load_position_rev(self, axis_index: int) -> float:
+        """Where the load really is, behind coupling and backlash, rev."""
+        return self._floats[axis_index][LOAD_POSITION if self._ints[axis_index][LOAD_APART] else TRUE_POSITION]
 
     def true_velocity_rev_s(self, axis_index: int) -> float:
         """How fast the shaft really turns, rev/s."""

@@ -1,6 +1,6 @@
 """Where the switches sit along an axis's travel, and how the servo catches a home edge or an index pulse.
 
-End-of-travel and home switches follow the true position of the shaft, not the counter: a slipped encoder does not move
+End-of-travel and home switches follow the true position of the load, not the counter: a slipped encoder does not move
 a switch. A switch that is operated changes its contact over from the state its wire has at rest, so a normally closed
 limit opens and a normally open home closes, and either can be wired the other way.
 
@@ -16,6 +16,7 @@ from enum import IntEnum
 
 from .events import EVENT_HOME_EDGE, EVENT_INDEX
 from .kernels import Record, kernel, seldom
+from .plants import place_of_load
 
 CAPTURE_NONE = 0
 CAPTURE_HOME_ON = 1
@@ -34,7 +35,7 @@ class Capture(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Travel:
-    """Switch positions, rev of the true shaft position; infinite where there is no switch.
+    """Switch positions, rev of the load's true position; infinite where there is no switch.
 
     A limit switch is operated from its position outwards, the home switch between its two edges.
     """
@@ -69,8 +70,8 @@ class Travel:
 
 @seldom
 def operate_switches(unit: Record, axis: Record) -> None:
-    """Change over the contacts of the switches that the shaft has moved onto or off."""
-    position = axis["true_position"]
+    """Change over the contacts of the switches that the load has moved onto or off."""
+    position = place_of_load(axis)
     operated = 0
     if position >= axis["positive_switch_rev"]:
         operated |= axis["positive_limit_mask"]

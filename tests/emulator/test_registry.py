@@ -29,6 +29,44 @@ def ask(unit: Unit, text: str) -> str:
     return unit.read().decode("latin-1").partition("\r")[0]
 
 
+class TestMachine:
+    TORQUE = "[defaults]\nECHO = 0\n[axis1.plant]\npreset = 'large_brushless'\n"
+
+    def test_a_load_and_friction_change_while_it_runs(self) -> None:
+        emulator = Emulator(Machine.parse(self.TORQUE))
+        unit = emulator.unit(0)
+        unit.do("set_load", axis=1, torque=0.3)
+        emulator.advance(0.2)
+        assert unit.signals["axis1.position.true"] < 0, "it acts against positive motion"
+        unit.do("set_friction", axis=1, torque=5.0)
+        emulator.advance(0.2)
+        assert unit.signals["axis1.velocity.true"] == 0.0
+
+    def test_a_load_the_plant_cannot_feel_is_refused(self, unit: Unit) -> None:
+        with pytest.raises(ValueError, match="droop"):
+            unit.do("set_load", axis=2, torque=1.0)
+        with pytest.raises(ValueError, match="axis must be 1 to 2, not 3"):
+            unit.do("set_friction", axis=3, torque=1.0)
+
+    @pytest.mark.parametrize("wiring", ["open", "reversed"])
+    def test_a_bad_encoder_connection_trips_the_position_error(
+        self, emulator: Emulator, unit: Unit, wiring: str
+    ) -> None:
+        unit.send(b"COMEXC1:DRIVE11:MC1:V5:GO10\r")
+        emulator.advance(0.5)
+        unit.do("wire_encoder", axis=1, wiring=wiring)
+        emulator.advance(2.0)
+        assert str(unit.signals["axis1.status"]).replace("_", "")[22] == "1", "AS bit 23"
+        assert unit.signals["axis1.drive"] is False
+        assert unit.signals["axis2.drive"] is True
+
+    def test_a_slip_is_seen_at_once(self, unit: Unit) -> None:
+        unit.do("slip_encoder", axis=2, counts=-40)
+        assert ask(unit, "2TPE") == "*2TPE-40"
+        with pytest.raises(ValueError, match="normal or reversed or open"):
+            unit.do("wire_encoder", axis=1, wiring="cut")
+
+
 class TestSignals:
     def test_all_can_be_read(self, unit: Unit) -> None:
         assert len(unit.signals) > 70

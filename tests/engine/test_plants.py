@@ -3,56 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
 
-from emulator.engine import RATES, Plant, TorqueDrive, VelocityDrive
-from emulator.engine.layout import AXIS, PLANT
-from emulator.engine.plants import step_plant
-
-PERIODS_S = [rates.servo_ns * 1e-9 for rates in RATES.values()]
-TURN = 2.0 * math.pi
-
-
-class Rig:
-    """A plant by itself: the state it has in an axis, its coefficients for one period, and a hand on its voltage."""
-
-    def __init__(self, plant: Plant, period_s: float, **state: float) -> None:
-        self._axis, self._plant = np.zeros(1, AXIS)[0], np.zeros(1, PLANT)[0]
-        self._axis["enabled"] = 1
-        for name, value in {"period_s": period_s, **plant.fields(period_s)}.items():
-            self._plant[name] = value
-        for name, value in state.items():
-            self._axis[name] = value
-
-    def __getitem__(self, name: str) -> Any:
-        return self._axis[name]
-
-    def __setitem__(self, name: str, value: float) -> None:
-        self._axis[name] = value
-
-    def step(self, volts: float) -> None:
-        step_plant(self._axis, self._plant, volts)
-
-
-def volts_sequence(count: int) -> list[float]:
-    return [3.0 * math.sin(0.7 * k) + (k % 5) - 2.0 for k in range(count)]
-
-
-def exact_linear(system: np.ndarray, inputs: np.ndarray, volts: list[float], period_s: float) -> np.ndarray:
-    """State after holding each voltage for a period, by the matrix exponential of the augmented system."""
-    n = len(system)
-    augmented = np.zeros((n + 1, n + 1))
-    augmented[:n, :n], augmented[:n, n] = system, inputs
-    step = expm(augmented * period_s)
-    state = np.zeros(n + 1)
-    for u in volts:
-        state[n] = u
-        state = step @ state
-    return state[:n]
+from emulator.engine import EncoderTraits, TorqueDrive, VelocityDrive
+from tests.engine.rig import PERIODS_S, TURN, Rig, exact_linear, volts_sequence
 
 
 @pytest.mark.parametrize("period_s", PERIODS_S)
@@ -64,7 +20,7 @@ def test_velocity_drive_is_exact_under_zero_order_hold(period_s: float, lag_s: f
         rig.step(u)
     tau = plant.loop_time_constant_s
     system = np.array([[0.0, 1.0, 0.0], [0.0, -1 / tau, 1 / tau], [0.0, 0.0, -1 / lag_s]])
-    expected = exact_linear(system, np.array([0.0, 0.0, plant.speed_per_volt_rev_s / lag_s]), volts, period_s)
+    expected = exact_linear(system, np.array([0.0, 0.0, plant.speed_per_volt_rev_s / lag_s]), volts, period_s)[-1]
     actual = [rig["true_position"], rig["true_velocity"], rig["lagged_command"]]
     assert actual == pytest.approx(expected.tolist(), rel=1e-7, abs=1e-9)
 
@@ -114,7 +70,7 @@ def test_torque_drive_without_dry_friction_is_exact(period_s: float, viscous: fl
     steady = [abs(u) + 0.1 for u in volts]
     for u in steady:
         rig.step(u)
-    expected = exact_linear(system, inputs, steady, period_s)
+    expected = exact_linear(system, inputs, steady, period_s)[-1]
     assert [rig["true_position"], rig["true_velocity"]] == pytest.approx(expected.tolist(), rel=1e-9)
 
 
@@ -163,8 +119,38 @@ def test_peak_torque_and_load_torque() -> None:
         (VelocityDrive, "command_lag_s", -1.0),
         (TorqueDrive, "inertia_kg_m2", 0.0),
         (TorqueDrive, "coulomb_nm", math.nan),
+        (TorqueDrive, "inertia_kg_m2", -1e-4),
+        (TorqueDrive, "torque_per_volt_nm", math.inf),
+        (TorqueDrive, "load_torque_nm", math.nan),
+        (TorqueDrive, "backlash_rev", -1.0),
+        (VelocityDrive, "speed_per_volt_rev_s", math.inf),
+        (VelocityDrive, "load_torque_nm", 1.0),
     ],
 )
 def test_impossible_parameters_are_named(kind: type, parameter: str, value: float) -> None:
     with pytest.raises(ValueError, match=parameter):
         kind(**{parameter: value})
+
+
+def test_a_load_makes_a_drive_without_integrator_droop() -> None:
+    """J w' = Kv (command - w) - T settles Kv's share below the command, with the loop's own time constant."""
+    period_s = 280e-6
+    rig = Rig(
+        VelocityDrive(droop_rev_s_per_nm=0.5, load_torque_nm=2.0, command_lag_s=0.0), period_s, true_velocity=10.0
+    )
+    speeds = rig.record(["true_velocity"], [1.0] * 100)[:, 0]
+    t = period_s * np.arange(1, 101)
+    assert speeds == pytest.approx(9.0 + np.exp(-t / 0.002), rel=1e-12)
+
+
+@pytest.mark.parametrize("plant", [VelocityDrive(backlash_rev=0.01), TorqueDrive(backlash_rev=0.01, coulomb_nm=0.0)])
+def test_backlash_is_hysteresis_of_exactly_the_width_set(plant: VelocityDrive | TorqueDrive) -> None:
+    rig = Rig(plant, 280e-6, EncoderTraits(on_load=True))
+    rows = rig.record(["true_position", "load_position"], [0.1 * math.cos(0.01 * k) for k in range(3000)])
+    gap = rows[:, 0] - rows[:, 1]
+    assert gap.max() == pytest.approx(0.005, abs=1e-12)
+    assert gap.min() == pytest.approx(-0.005, abs=1e-12)
+    moved, inside = np.diff(rows[:, 1]) != 0.0, np.abs(gap[1:]) < 0.005 - 1e-9
+    assert inside.any() and moved.any()
+    assert not (moved & inside).any(), "the load moves only where the play is used up"
+    assert rig["encoder_counts"] == math.floor(rows[-1, 1] * 4000)
