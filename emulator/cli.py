@@ -19,6 +19,7 @@ from emulator.recording.commands import add_replay, add_transcript
 from emulator.scope_command import add_scope
 from emulator.serial_address import SerialAddress, parse_serial
 from emulator.state.command import add_state
+from emulator.tuning.commands import add_sweep, add_tune
 
 if TYPE_CHECKING:
     from emulator.server import Build
@@ -81,6 +82,8 @@ def _parser() -> argparse.ArgumentParser:
     add_replay(commands)
     add_transcript(commands)
     add_state(commands)
+    add_tune(commands)
+    add_sweep(commands)
     return parser
 
 

@@ -48,14 +48,11 @@ ABSENT_ROWS: Final[Mapping[str, str]] = {
 """Absent rows of other groups, each with its reason."""
 
 _LINE: Final = "acts with a second port"
-_DITHER: Final = "dither comes with the servo work"
 
 STORED_ROWS: Final[Mapping[str, str]] = {
     **dict.fromkeys(("VF", "PA", "PAA", "PAD", "PADA", "PV", "PSCLA", "PSCLV", "PSCLD", "SCLMAS"), _MOTION),
     **dict.fromkeys(("LOCK", "DRPCHK"), _LINE),
-    **dict.fromkeys(("SDTAMP", "SDTFR"), _DITHER),
     **dict.fromkeys(("COMEXK", "FOLK"), "stores only: its existence is not confirmed"),
-    "ANIPOL": "the ANI option is not fitted",
     "TIMINT": "its alarm goes to the computer bus of other products",
 }
 """Settings outside the motion groups that only store and report, each with the reason."""

@@ -253,11 +253,13 @@ class Timing(Table, frozen=True):
 class UnitFactors(Table, frozen=True):
     """What one unit of each gain command means; 1.0 is the product family's unit."""
 
-    sgp: Annotated[float, known("mV per count of position error", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
-    sgi: Annotated[float, known("mV per count second", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
-    sgv: Annotated[float, known("uV per count/s", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
-    sgvf: Annotated[float, known("uV per count/s", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
-    sgaf: Annotated[float, known("uV per count/s2", "assumed", "H", "6K axis configurations", gt=0)] = 1.0
+    sgp: Annotated[
+        float, known("mV per count of position error", "assumed", "H", "6K axis configurations", gt=0, le=1e6)
+    ] = 1.0
+    sgi: Annotated[float, known("mV per count second", "assumed", "H", "6K axis configurations", gt=0, le=1e6)] = 1.0
+    sgv: Annotated[float, known("uV per count/s", "assumed", "H", "6K axis configurations", gt=0, le=1e6)] = 1.0
+    sgvf: Annotated[float, known("uV per count/s", "assumed", "H", "6K axis configurations", gt=0, le=1e6)] = 1.0
+    sgaf: Annotated[float, known("uV per count/s2", "assumed", "H", "6K axis configurations", gt=0, le=1e6)] = 1.0
 
 
 Microseconds = Annotated[int, msgspec.Meta(gt=0, le=1_000_000)]

@@ -85,6 +85,7 @@ AxisRead = Callable[[Controller, int], Value]
 class AxisSignal:
     """A signal every axis has; ``field``, ``minus`` and ``mask`` say what the scope records (see ``trace.Source``).
 
+    A signal without a field cannot be recorded.
     ``field_without_load`` takes the place of ``field`` on an axis whose load turns rigidly with its motor.
     """
 
@@ -92,7 +93,7 @@ class AxisSignal:
     sentence: str
     unit: str
     read: AxisRead
-    field: str
+    field: str | None
     minus: str | None = None
     mask: int = 0
     field_without_load: str | None = None
@@ -105,7 +106,7 @@ class AxisSignal:
             f"axis {axis_index + 1}: {self.sentence}",
             self.unit,
             lambda controller: self.read(controller, axis_index),
-            Source(field, axis_index, self.minus, self.mask),
+            None if field is None else Source(field, axis_index, self.minus, self.mask),
         )
 
 
@@ -208,6 +209,13 @@ AXIS_SIGNALS: tuple[AxisSignal, ...] = (
         "control_v",
     ),
     AxisSignal("dac", "voltage at the analogue output", "V", lambda c, i: c.engine.dac_volts(i), "dac_v"),
+    AxisSignal(
+        "ani",
+        "voltage at the ANI feedback input as converted",
+        "V",
+        lambda c, i: c.engine.ani_volts(i),
+        None,
+    ),
     AxisSignal("drive", "the drive is on", "", lambda c, i: c.engine.is_enabled(i), "enabled"),
     AxisSignal("moving", "a profile is running", "", lambda c, i: c.engine.is_moving(i), "profile_active"),
     AxisSignal("settling", "waiting for the target zone", "", lambda c, i: c.engine.is_settling(i), "settling"),
@@ -296,6 +304,14 @@ def _set_wire(controller: Controller, name: str, closed: bool) -> None:
 
 def _set_analog(controller: Controller, channel: int, volts: float) -> None:
     controller.wiring.set_analog(channel, volts=volts)
+
+
+def _force_ani(controller: Controller, axis: int, volts: float) -> None:
+    controller.wiring.force_ani(axis, volts=volts)
+
+
+def _release_ani(controller: Controller, axis: int) -> None:
+    controller.wiring.release_ani(axis)
 
 
 def _cut_power(controller: Controller) -> None:
@@ -388,6 +404,18 @@ ACTIONS: Mapping[str, Action] = {
                 Parameter("volts", float, "0 to 2.5", unit="V"),
             ),
             _set_analog,
+        ),
+        Action(
+            "force_ani",
+            "hold an ANI feedback input at a voltage, whatever the shaft does (a lost or stuck sensor)",
+            (Parameter("axis", int, "1 or 2"), Parameter("volts", float, "-10 to 10", unit="V")),
+            _force_ani,
+        ),
+        Action(
+            "release_ani",
+            "let an ANI feedback input follow its sensor again",
+            (Parameter("axis", int, "1 or 2"),),
+            _release_ani,
         ),
         Action("press_key", "press a key of the operator panel", (Parameter("key", str, "its label"),), press),
         Action(

@@ -19,12 +19,12 @@ import msgspec
 
 from emulator.chain import addressed
 from emulator.controller import Controller
-from emulator.controller.build import plant
 from emulator.controller.communications import framing_in_force
 from emulator.logs import event_line
 from emulator.machine import Machine, MachineError
 from emulator.machine_keys import differing_keys, keys_and_values
 from emulator.pacing import EngineThread
+from emulator.plant_tables import engine_plant
 
 _IN_PLACE = re.compile(
     r"identity\..*|rp240\.sign_on_line|errlvl\..*|aliases|wiring|bare"
@@ -131,7 +131,7 @@ def _apply(controller: Controller, old: Machine, reload: Reload) -> None:
     for key in reload.applied:
         if key.endswith(".plant"):
             axis_index = int(key[len("axis")]) - 1
-            controller.engine.set_plant(axis_index, plant(new.axes[axis_index].plant))
+            controller.engine.set_plant(axis_index, engine_plant(new.axes[axis_index].plant))
     for name, closed in _changed_contacts(controller, old, new):
         controller.wiring.set(name, closed=closed)
     for channel, (was, volts) in enumerate(zip(old.wires.analog, new.wires.analog, strict=True), start=1):

@@ -105,8 +105,12 @@ def _record(parsed: argparse.Namespace) -> int:
     recording = unit.scope.read()
     if parsed.trigger is not None and recording.trigger_s is None:
         raise CommandError(f"--trigger {parsed.trigger!r}: it did not come true within {emulator.time_s:.2f} s")
+    from emulator.tuning.pictures import NoPictures
+
     try:
         write(Path(parsed.out), recording)
+    except NoPictures as error:
+        raise CommandError(f"--out {parsed.out}: {error}") from None
     except OSError as error:
         raise CommandError(f"--out {parsed.out}: cannot be written ({error.strerror})") from None
     span_s = recording.time_s[-1] - recording.time_s[0] if len(recording.time_s) else 0.0

@@ -34,7 +34,8 @@ def write_npz(path: Path, recording: Recording) -> None:
 
 
 def write_picture(path: Path, recording: Recording) -> None:
-    """A picture, one panel a unit of measurement."""
-    from emulator.tuning.pictures import draw_signals
+    """A picture, one panel a unit of measurement. NoPictures without matplotlib."""
+    from emulator.tuning.pictures import Shown, draw_signals
 
-    draw_signals(path, recording.time_s, dict(recording), dict(recording.units), trigger_s=recording.trigger_s)
+    shown = {name: Shown(column, recording.units[name]) for name, column in recording.items()}
+    draw_signals(path, recording.time_s, shown, path.stem)

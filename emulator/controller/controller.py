@@ -20,7 +20,8 @@ from emulator.controller.dispatch import handles
 from emulator.controller.faults import Faults
 from emulator.controller.interpreter import Interpreter
 from emulator.controller.line import InstantLine, build_line
-from emulator.controller.motion.gain_sets import AxisGains
+from emulator.controller.motion.feedback import FeedbackSources
+from emulator.controller.motion.gain_sets import SavedGains
 from emulator.controller.motion.homing import Homing
 from emulator.controller.motion.jogging import Jogging
 from emulator.controller.motion.joystick import Joystick
@@ -117,7 +118,8 @@ class Controller:
         self.memory_lost = False
         """It was at the last one (SS bit 22)."""
         self.drive_faulted = [False] * self.settings.axes
-        self.gain_sets: dict[int, list[AxisGains]] = {}
+        self.gain_sets: dict[int, list[SavedGains]] = {}
+        self.feedback = FeedbackSources(self.settings)
         self.homing = Homing(self)
         self.jogging = Jogging(self)
         self.joystick = Joystick(self)
@@ -431,6 +433,7 @@ class Controller:
         self.drive_faulted = [False] * self.settings.axes
         self._enable_lost = not self.wiring.enable_grounded
         self.data_programs.reset()
+        self.feedback.reset()
         self.homing.reset()
         self.jogging.reset()
         self.joystick.reset()

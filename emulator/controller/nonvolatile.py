@@ -12,6 +12,7 @@ from __future__ import annotations
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
+from emulator.controller.motion.gain_sets import SavedGains, never_saved
 from emulator.controller.scaling import Quantity
 from emulator.controller.variables.store import Snapshot
 from emulator.controller.wires.panel_commands import DEFAULT_PASSWORD
@@ -89,19 +90,23 @@ def _put_back_variables(controller: Controller, contents: Contents) -> list[str]
 
 
 def _collect_gains(controller: Controller) -> tuple[GainValue, ...]:
-    """Gain sets as one list of values; a set has no feedback source of its own yet, SFB1 stands for it."""
+    """Gain sets as one list of values, each under the feedback source it was saved under."""
     return tuple(
-        GainValue(number, axis_index + 1, 1, name, quantity)
+        GainValue(number, axis_index + 1, saved.source, name, quantity)
         for number, axes in controller.gain_sets.items()
-        for axis_index, values in enumerate(axes)
-        for name, quantity in values.items()
+        for axis_index, saved in enumerate(axes)
+        for name, quantity in saved.values.items()
     )
 
 
 def _put_back_gains(controller: Controller, gains: tuple[GainValue, ...]) -> None:
-    axes = controller.settings.axes
-    for gain in gains:
-        if gain.axis <= axes:
-            saved = controller.gain_sets.setdefault(gain.set_number, [{} for _ in range(axes)])
-            value, factor = gain.value
-            saved[gain.axis - 1][gain.command] = Quantity(Decimal(value), factor)
+    """A set as it was saved; what the file lacks of one (an axis, a command) is as at power-up."""
+    settings = controller.settings
+    for number in sorted({gain.set_number for gain in gains}):
+        sets = [never_saved() for _ in range(settings.axes)]
+        for gain in gains:
+            if gain.set_number == number and gain.axis <= settings.axes:
+                value, factor = gain.value
+                values = {**sets[gain.axis - 1].values, gain.command: Quantity(Decimal(value), factor)}
+                sets[gain.axis - 1] = SavedGains(gain.feedback, values)
+        controller.gain_sets[number] = sets

@@ -38,6 +38,8 @@ READINGS = {
     "VEL": Reading(Engine.commanded_velocity, "velocity", MEASURED_PLACES),
     "VELA": Reading(Engine.actual_velocity, "velocity", MEASURED_PLACES),
     "DAC": Reading(Engine.dac_volts, None, VOLT_PLACES),
+    "ANI": Reading(Engine.ani_volts, None, VOLT_PLACES),
+    "PANI": Reading(Engine.ani_position, "distance", 0),
 }
 """The readings by operand name."""
 

@@ -32,6 +32,8 @@ _READING_OF_REPORT = {
     "TVEL": "VEL",
     "TVELA": "VELA",
     "TDAC": "DAC",
+    "TANI": "PANI",
+    "TPANI": "PANI",
 }
 _AXIS_WORDS: dict[str, AxisWord] = {"TAS": words.axis_status, "TASX": words.extended_axis_status}
 _UNIT_WORDS: dict[str, UnitWord] = {
@@ -68,7 +70,7 @@ def _row(command: Command) -> CommandRow:
 
 @handles(*_READING_OF_REPORT)
 def report_reading(controller: Controller, command: Command) -> Lines:
-    """Positions, velocities and the analogue output of the axes."""
+    """Positions, velocities and the analogue output of the axes. Without the ANI option TANI and TPANI are 0."""
     row = _row(command)
     name = _READING_OF_REPORT[row.name]
     indexes = axis_indexes(command, controller.settings.axes_in_use)
@@ -119,7 +121,7 @@ def report_unit_table(controller: Controller, command: Command) -> Lines:
 
 @handles("TSTLT")
 def report_settling_time(controller: Controller, command: Command) -> Lines:
-    """TSTLT: milliseconds from the end of the last profile into the target zone."""
+    """TSTLT: milliseconds from the end of the last profile into the target zone, the last entry counting."""
     row = _row(command)
     indexes = axis_indexes(command, controller.settings.axes_in_use)
     values = [Decimal(controller.engine.settling_time_ms(index)) for index in indexes]

@@ -48,6 +48,8 @@ DISCRETE_VALUES: Mapping[str, frozenset[int]] = {"SSFR": frozenset({1, 2, 4, 8})
 
 ANI_FEEDBACK = 2
 
+ANI_COUNTS_PER_VOLT = 819
+"""Unit of velocities and accelerations of an axis with ANI feedback (6000 PG p.211)."""
 
 Quantities = Mapping[int, Quantity]
 """Values by field index, each with the scale factor it was entered with."""
@@ -127,7 +129,10 @@ class Settings:
         return self._numbers[source][axis_index].counts(self.encoder_resolution(axis_index))
 
     def encoder_resolution(self, axis_index: int) -> int:
-        """ERES, counts per revolution."""
+        """Counts in a unit of unscaled velocity and acceleration: a revolution of ERES counts, with ANI feedback a volt
+        (6000 PG p.196)."""
+        if self._numbers["SFB"][axis_index].value == ANI_FEEDBACK:
+            return ANI_COUNTS_PER_VOLT
         return int(self._numbers["ERES"][axis_index].value)
 
     @property

@@ -11,6 +11,7 @@ all five gains zero the algorithm is off and the output is SOFFS alone (OEM6250 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from .converter import OUTPUT_RANGE_V
@@ -41,8 +42,8 @@ class UnitFactors:
 
 
 def gain_fields(gains: Gains, factors: UnitFactors) -> dict[str, float]:
-    """Fields of the axis record for a gain set, in volts."""
-    return {
+    """Fields of the axis record for a gain set, in volts. ValueError for a gain that is not a finite number."""
+    fields = {
         "proportional_v": gains.proportional_mv_per_count * factors.sgp,
         "integral_v": gains.integral_mv_per_count_s * factors.sgi,
         "velocity_v": gains.velocity_uv_per_count_s * factors.sgv,
@@ -50,6 +51,10 @@ def gain_fields(gains: Gains, factors: UnitFactors) -> dict[str, float]:
         "acceleration_feedforward_v": gains.acceleration_feedforward_uv_per_count_s2 * factors.sgaf,
         "integral_limit_v": gains.integral_limit_v,
     }
+    for name, value in fields.items():
+        if not math.isfinite(value):
+            raise ValueError(f"{name} would be {value}")
+    return fields
 
 
 @kernel

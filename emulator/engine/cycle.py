@@ -37,10 +37,14 @@ from .scope import (
 from .status import (
     NEGATIVE_HARD_LIMIT,
     NEGATIVE_SOFT_LIMIT,
+    NOT_SETTLING,
     POSITION_ERROR_EXCEEDED,
     POSITIVE_HARD_LIMIT,
     POSITIVE_SOFT_LIMIT,
+    SETTLED,
+    SETTLING,
     TARGET_ZONE_TIMEOUT,
+    ZONE_LEFT,
     axis_status,
     in_target_zone,
 )
@@ -212,17 +216,43 @@ def latch_limits(unit: Record, axis: Record) -> None:
 
 
 @kernel
-def settle(axis: Record, now_ns: int) -> None:
+def await_zone(axis: Record, waited_ns: int, in_time: bool) -> None:
     """Wait for the target zone after a profile. Entering wins over the time-out at the same update."""
-    waited_ns = now_ns - axis["settle_start_ns"]
     if in_target_zone(axis):
-        axis["settling"] = 0
+        axis["settling"] = SETTLED
         axis["settling_ns"] = waited_ns
         axis["pending_events"] |= EVENT_SETTLED
-    elif waited_ns > axis["target_timeout_ns"]:
-        axis["settling"] = 0
+    elif not in_time:
+        axis["settling"] = NOT_SETTLING
         axis["latched_status"] |= TARGET_ZONE_TIMEOUT
         axis["pending_events"] |= EVENT_SETTLE_TIMEOUT
+
+
+@kernel
+def watch_zone(axis: Record, waited_ns: int) -> None:
+    """An axis that leaves the zone again has not settled: its settling time is that of the last entry."""
+    if not in_target_zone(axis):
+        axis["settling"] = ZONE_LEFT
+    elif axis["settling"] == ZONE_LEFT:
+        axis["settling"] = SETTLED
+        axis["settling_ns"] = waited_ns
+
+
+@kernel
+def settle(axis: Record, now_ns: int) -> None:
+    """The target zone after a profile.
+
+    The move is complete with the first entry, the settling time counts up to the last (definition: Aries User Guide
+    p. 82); that entries are looked for as long as STRGTT runs is assumed.
+    """
+    waited_ns = now_ns - axis["settle_start_ns"]
+    in_time = waited_ns <= axis["target_timeout_ns"]
+    if axis["settling"] == SETTLING:
+        await_zone(axis, waited_ns, in_time)
+    elif in_time:
+        watch_zone(axis, waited_ns)
+    else:
+        axis["settling"] = NOT_SETTLING
 
 
 @seldom

@@ -180,14 +180,15 @@ def read_encoder(axis: Record) -> None:
 
 @seldom
 def read_ani(axis: Record) -> None:
-    """Take a reading of the ANI feedback input's converter: whole counts of the voltage, held at the range's ends."""
+    """Take a reading of the ANI feedback input's converter: whole counts of the voltage, held at the range's ends, with
+    the sign in force."""
     volts = axis["ani_rest_v"] + axis["ani_volts_per_rev"] * place_of_load(axis)
     reading = math.floor(volts * ANI_COUNTS_PER_VOLT)
     if reading > ANI_HIGHEST_COUNT:
         reading = ANI_HIGHEST_COUNT
     if reading < ANI_LOWEST_COUNT:
         reading = ANI_LOWEST_COUNT
-    axis["ani_counts"] = reading
+    axis["ani_counts"] = axis["ani_sign"] * reading
 
 
 @kernel

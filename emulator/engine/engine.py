@@ -9,21 +9,22 @@ Positions are *reported* counts, that is after `PSET`, velocities counts per sec
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from .control_law import Gains, UnitFactors, gain_fields
 from .converter import DEFAULT_DAC_BITS, dac_fields
-from .encoder import ANI_SOURCE, ENCODER_SOURCE, OPEN_LOOP
+from .encoder import ENCODER_SOURCE
 from .events import MAX_AXES, Event, Relation, Signal
+from .feedback_inputs import FeedbackInputs
 from .layout import UNIT, word_of
 from .machine_code import Calls, Kernel, OnBuild, load_kernel
-from .machinery import AxisHardware, Machinery
+from .machinery import AxisHardware
 from .memory import Memory, write_fields
 from .profile import Segments, State, evaluate, profile_duration
 from .rates import NS_PER_S, ServoRates
 from .readings import (
     ACTIVE,
-    ANI,
     ANI_OFFSET,
     COMMANDED,
     ENABLED,
@@ -53,7 +54,6 @@ _TIME, _NEXT_SAMPLE, _SERVO = (word_of(UNIT, name) for name in ("time_ns", "next
 _TO_TRAJECTORY, _TO_SYSTEM = (word_of(UNIT, name) for name in ("samples_to_trajectory", "trajectories_to_system"))
 _FIRED = word_of(UNIT, "fired_watches")
 _START, _SOURCE = axis_word("profile_start_ns"), axis_word("feedback_source")
-_ANI_FITTED = axis_word("ani_fitted")
 _LATCHED, _EXTRA, _STATUS = (axis_word(name) for name in ("latched_status", "extra_status", "status"))
 _EVENTS = axis_word("events")
 
@@ -71,7 +71,7 @@ class DriveShutDown(RuntimeError):
     """A profile was started on an axis whose drive is off."""
 
 
-class Engine(Machinery):
+class Engine(FeedbackInputs):
     """The servo of one unit. Drives are off, wires open and gains those of power-up until set."""
 
     def __init__(
@@ -127,6 +127,7 @@ class Engine(Machinery):
             ints[_SOURCE] = ENCODER_SOURCE
             ints[COMMANDED] = ints[OFFSET] = ints[ENCODER_OFFSET] = ints[FEEDBACK] = ints[ENCODER]
             ints[ANI_OFFSET] = 0
+            self._write(axis_index, previous_feedback_counts=ints[ENCODER], system_feedback_counts=ints[ENCODER])
             self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0, capture_mode=Capture.NONE)
         self.clear_watches()
 
@@ -262,51 +263,36 @@ class Engine(Machinery):
     # Settings
 
     def set_gains(self, axis_index: int, gains: Gains) -> None:
-        """Put a gain set into force."""
-        self._gains[axis_index] = gains
+        """Put a gain set into force at the next servo sample; ValueError for a gain that is not a finite number.
+
+        The integrator's state is a voltage and goes over as it is, so a change of gains, also in motion, makes no step
+        of the integral term; only SGI 0 clears it and a lower SGILIM cuts it.
+        """
         self._write(axis_index, **gain_fields(gains, self._factors))
+        self._gains[axis_index] = gains
 
     def gains(self, axis_index: int) -> Gains:
         """The gain set in force."""
         return self._gains[axis_index]
 
     def set_output(self, axis_index: int, *, offset_v: float | None = None, limit_v: float | None = None) -> None:
-        """SOFFS and DACLIM, V."""
+        """SOFFS and DACLIM, V; ValueError for what is not a number."""
+        if not all(volts is None or math.isfinite(volts) for volts in (offset_v, limit_v)):
+            raise ValueError(f"the output cannot be set to {offset_v} V, {limit_v} V")
         self._write(axis_index, offset_v=offset_v, output_limit_v=limit_v)
 
     def set_position_error_limit(self, axis_index: int, counts: int) -> None:
         """SMPER, counts; 0 = position error not watched."""
         self._write(axis_index, position_error_limit=counts)
 
-    def set_feedback(self, axis_index: int, source: int) -> None:
-        """SFB: 0 open loop, 1 encoder, 2 ANI; ValueError for one that is not fitted.
-
-        On a change the commanded position takes over the new feedback with the PSET offset of that source.
-        """
-        ints = self._ints[axis_index]
-        fitted = (OPEN_LOOP, ENCODER_SOURCE, ANI_SOURCE) if ints[_ANI_FITTED] else (OPEN_LOOP, ENCODER_SOURCE)
-        if source not in fitted:
-            raise ValueError(f"feedback source {source} is not fitted")
-        if source == ints[_SOURCE]:
-            return
-        position, offset = (ANI, ANI_OFFSET) if source == ANI_SOURCE else (ENCODER, ENCODER_OFFSET)
-        ints[_SOURCE] = source
-        ints[OFFSET] = ints[offset]
-        ints[COMMANDED] = ints[FEEDBACK] = ints[position]
-        self._write(axis_index, previous_feedback_counts=ints[position], term_i=0.0)
-
     def set_dither(self, axis_index: int, *, amplitude_v: float, half_period_samples: int) -> None:
-        """SDTAMP, V, and SDTFR, servo samples in half a period of the square wave; 0 = none."""
-        self._write(axis_index, dither_v=amplitude_v, dither_samples=half_period_samples, dither_sample=0)
+        """SDTAMP, V, and SDTFR, servo samples in half a period of the square wave; 0 = none.
 
-    def set_position(self, axis_index: int, counts: int) -> None:
-        """PSET: the present commanded position becomes `counts`; the feedback shifts with it, the error stays.
-
-        The offset belongs to the selected feedback source; in open loop to the encoder.
+        ValueError for an amplitude that is not a number.
         """
-        ints = self._ints[axis_index]
-        ints[OFFSET] = ints[COMMANDED] - counts
-        ints[ANI_OFFSET if ints[_SOURCE] == ANI_SOURCE else ENCODER_OFFSET] = ints[OFFSET]
+        if not math.isfinite(amplitude_v):
+            raise ValueError(f"a dither of {amplitude_v} V is not possible")
+        self._write(axis_index, dither_v=amplitude_v, dither_samples=half_period_samples, dither_sample=0)
 
     def set_hard_limits(
         self,

@@ -66,6 +66,10 @@ class Signal(IntEnum):
     """Actual velocity, counts/s."""
     DAC = 6
     """Voltage at the analogue output, V."""
+    ANI = 7
+    """Voltage at the ANI feedback input as converted, V."""
+    PANI = 8
+    """Position of the ANI feedback input, counts."""
 
 
 class Relation(IntEnum):

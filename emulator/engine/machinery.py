@@ -74,6 +74,7 @@ class Machinery(Terminals):
             axis_index,
             feedback_source=ENCODER_SOURCE,
             output_sign=1,
+            ani_sign=1,
             ani_fitted=hardware.ani is not None,
             true_position=start_rev,
             load_position=start_rev,
@@ -142,21 +143,14 @@ class Machinery(Terminals):
 
     # Encoders
 
-    def set_polarity(self, axis_index: int, *, encoder: int | None = None, command: int | None = None) -> None:
-        """ENCPOL and CMDDIR, 0 normal or 1 reversed. Positions do not jump, only counting and output turn round."""
-        ints = self._ints[axis_index]
-        command_sign = ints[_OUTPUT_SIGN] if command is None else 1 - 2 * command
-        polarity = ints[_POLARITY] if encoder is None else 1 - 2 * encoder
-        self._write(axis_index, output_sign=command_sign, encoder_polarity=polarity)
-        self._turn_counting(axis_index)
-
     def wire_encoder(self, axis_index: int, wiring: EncoderWiring) -> None:
         """Connect the encoder rightly, with its channels exchanged, or not at all. Its position does not jump; what it
         moves meanwhile without a connection is not counted."""
         self._write(axis_index, encoder_wiring=wiring)
-        self._turn_counting(axis_index)
+        self.turn_counting(axis_index)
 
-    def _turn_counting(self, axis_index: int) -> None:
+    def turn_counting(self, axis_index: int) -> None:
+        """The encoder's direction follows from ENCPOL, CMDDIR and how it is wired."""
         ints = self._ints[axis_index]
         ints[_SIGN] = ints[_POLARITY] * ints[_OUTPUT_SIGN] * ints[_WIRING]
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from .encoder import ANI_COUNTS_PER_VOLT
 from .layout import AXIS, word_of
 from .memory import Memory
+from .status import SETTLING
 
 
 def axis_word(name: str) -> int:
@@ -42,7 +43,7 @@ TERMS = {
 }
 
 NS_PER_MS = 1_000_000
-_SETTLING = axis_word("settling")
+_SETTLING, _ANI_SIGN = axis_word("settling"), axis_word("ani_sign")
 
 
 class AxisReadings:
@@ -62,10 +63,13 @@ class AxisReadings:
 
     def is_settling(self, axis_index: int) -> bool:
         """Whether a profile has ended (target zone enabled) and the axis is neither in the zone nor timed out."""
-        return bool(self._ints[axis_index][_SETTLING])
+        return self._ints[axis_index][_SETTLING] == SETTLING
 
     def settling_time_ms(self, axis_index: int) -> int:
-        """Last time from the end of a profile to the target zone (TSTLT), ms, rounded down."""
+        """Last time from the end of a profile to the target zone (TSTLT), ms, rounded down.
+
+        Grows once more if the axis leaves the zone and comes back within the time-out.
+        """
         return self._ints[axis_index][SETTLING_TIME] // NS_PER_MS
 
     def commanded_position(self, axis_index: int) -> int:
@@ -85,7 +89,8 @@ class AxisReadings:
 
     def ani_volts(self, axis_index: int) -> float:
         """Voltage at the ANI feedback input as converted, V; 0 without the option."""
-        return self._ints[axis_index][ANI] / ANI_COUNTS_PER_VOLT
+        ints = self._ints[axis_index]
+        return ints[_ANI_SIGN] * ints[ANI] / ANI_COUNTS_PER_VOLT
 
     def feedback_position(self, axis_index: int) -> int:
         """Position of the selected feedback source (TFB), counts."""

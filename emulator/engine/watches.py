@@ -6,10 +6,19 @@ instead of stopping at every system update for Python to look.
 
 from __future__ import annotations
 
+from .encoder import ANI_COUNTS_PER_VOLT
 from .events import EVENT_VALUE
 from .kernels import Record, Records, kernel, seldom
 
 WATCH_SLOTS = 8
+
+
+@kernel
+def ani_value(axis: Record, signal: int) -> float:
+    """Value of a signal of the ANI feedback input."""
+    if signal == 7:
+        return float(axis["ani_sign"] * axis["ani_counts"]) / ANI_COUNTS_PER_VOLT
+    return float(axis["ani_counts"] - axis["ani_offset_counts"])
 
 
 @kernel
@@ -27,7 +36,9 @@ def signal_value(axis: Record, signal: int) -> float:
         return float(axis["commanded_velocity"])
     if signal == 5:
         return float(axis["actual_velocity"])
-    return float(axis["dac_v"])
+    if signal == 6:
+        return float(axis["dac_v"])
+    return ani_value(axis, signal)
 
 
 @kernel

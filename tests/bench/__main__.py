@@ -30,6 +30,7 @@ GROUPS = {
     "staleness": "staleness",
     "footprint": "footprint",
     "state": "acknowledged",
+    "sweep": "sweep",
 }
 """What can be asked for with --only, and the module whose `measure(effort)` does it."""
 

@@ -14,9 +14,15 @@ ALL_CLOSED = 0xFFF
 MakeEngine = Callable[..., Engine]
 
 
-def build_engine(*plants: Plant, rates: ServoRates | None = None, enabled: bool = True, **options: float) -> Engine:
+def build_engine(
+    *plants: Plant,
+    rates: ServoRates | None = None,
+    enabled: bool = True,
+    output_delay_s: float = 0.0,
+    **options: float,
+) -> Engine:
     hardware = [AxisHardware(plant, **options) for plant in plants or (VelocityDrive(),)]  # type: ignore[arg-type]
-    engine = Engine(hardware, rates=rates or rates_for(2, 4))
+    engine = Engine(hardware, rates=rates or rates_for(2, 4), output_delay_s=output_delay_s)
     engine.set_wires(ALL_CLOSED)
     engine.run(engine.next_system_update_ns)
     for axis_index in range(len(hardware)):

@@ -31,7 +31,7 @@ class InstantLine:
         self._handshake = True
         self.transmitter = Transmitter()
         self.take = self.transmitter.take
-        self.received = 0
+        self.received: int = 0
         """Characters that have reached the unit."""
 
     @property

@@ -53,11 +53,11 @@ class TimedLine:
         self._unread: deque[tuple[int, int]] = deque()
         self._room_ns = NEVER
         self._losing = False
-        self.holds_hosts = False
+        self.holds_hosts: bool = False
         """The unit has sent XOFF and not yet XON."""
-        self.received = 0
+        self.received: int = 0
         """Characters that have reached the unit, lost ones included."""
-        self.overruns = 0
+        self.overruns: int = 0
         """Characters that found the input buffer full."""
 
     @property

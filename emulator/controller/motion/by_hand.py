@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from emulator.controller.faults import clear_without_cause
-from emulator.controller.motion.go import CLEARED_BY_LEGAL_GO, ramps
+from emulator.controller.motion.go import CLEARED_BY_LEGAL_GO, OPEN_LOOP, ramps
 from emulator.controller.motion.limits import limit_in_the_way
 from emulator.engine import plan_continuous
 from protocol.status import ErrorStatus
@@ -15,9 +15,12 @@ if TYPE_CHECKING:
 
 
 def run_at(controller: Controller, axis_index: int, velocity_counts_s: float, family: str) -> None:
-    """Change to a velocity (0: to rest) with the ramps of a family, JOG or JOY; never into an active limit."""
+    """Change to a velocity (0: to rest) with the ramps of a family, JOG or JOY; never into an active limit.
+
+    Without a drive that is on, or in open loop, nothing moves and nobody is told: no command asked for it (assumed).
+    """
     engine = controller.engine
-    if not engine.is_enabled(axis_index):
+    if not engine.is_enabled(axis_index) or controller.settings.integer("SFB", axis_index) == OPEN_LOOP:
         return
     direction = (velocity_counts_s > 0) - (velocity_counts_s < 0)
     hit = limit_in_the_way(controller, axis_index, direction)

@@ -1,17 +1,21 @@
 """Gain sets: SGSET saves what is in force, SGENB recalls it axis by axis, TGAIN and TSGSET show it.
 
-A set holds the gains, SGILIM, SOFFS and SMPER of both axes under the feedback source each axis had (OEM6250 IG p.38).
-Sets are recalled as they are: enabling one that was saved under the other source is the mistake the guide warns of.
+A set holds the gains, SGILIM, SOFFS and SMPER of both axes as they are under the feedback source each axis has
+(OEM6250 IG p.38). It is recalled into the settings of the source then in force, whichever that is: enabling one saved
+under the other source is the mistake the guide warns of. In motion too a set takes effect with the next servo sample;
+the integrator's voltage goes over.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
 from emulator.controller.motion.servo import GAIN_COMMANDS, apply_gains, apply_output, apply_position_error_limit
 from emulator.controller.scaling import Quantity
+from emulator.engine.encoder import ENCODER_SOURCE
 from protocol.catalogue import commands
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, CommandError
@@ -21,11 +25,18 @@ from protocol.reply_shapes import numbers_line, places_of
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
+    from emulator.controller.settings import Settings
 
 SET_COMMANDS = (*GAIN_COMMANDS, "SOFFS", "SMPER")
 """What a gain set holds (OEM6250 IG p.38)."""
 
-AxisGains = dict[str, Quantity]
+
+@dataclass(frozen=True, slots=True)
+class SavedGains:
+    """What a gain set holds of one axis: the settings by name, and the feedback source (SFB) they were saved under."""
+
+    source: int
+    values: dict[str, Quantity]
 
 
 def _set_number(controller: Controller, command: Command) -> int:
@@ -42,10 +53,13 @@ def save_gain_set(controller: Controller, command: Command) -> Lines:
     number = _set_number(controller, command)
     controller.changes.note()
     settings = controller.settings
-    controller.gain_sets[number] = [
-        {name: settings.setting(name, axis_index) for name in SET_COMMANDS} for axis_index in range(settings.axes)
-    ]
+    controller.gain_sets[number] = [_in_force(settings, axis_index) for axis_index in range(settings.axes)]
     return None
+
+
+def _in_force(settings: Settings, axis_index: int) -> SavedGains:
+    values = {name: settings.setting(name, axis_index) for name in SET_COMMANDS}
+    return SavedGains(settings.integer("SFB", axis_index), values)
 
 
 @handles("SGENB")
@@ -66,7 +80,7 @@ def enable_gain_set(controller: Controller, command: Command) -> Lines:
     if any(number not in controller.gain_sets for number in numbers.values()):
         raise CommandError(INVALID_CONDITIONS)
     for axis_index, number in numbers.items():
-        for name, quantity in controller.gain_sets[number][axis_index].items():
+        for name, quantity in controller.gain_sets[number][axis_index].values.items():
             controller.settings.store(name, axis_index, quantity)
     changed = list(numbers)
     for apply in (apply_gains, apply_output, apply_position_error_limit):
@@ -88,13 +102,16 @@ def report_gains(controller: Controller, command: Command) -> Lines:
 def report_gain_set(controller: Controller, command: Command) -> Lines:
     """TSGSETn: a saved set with SOFFS and SMPER; one never saved shows the defaults."""
     number = _set_number(controller, command)
-    saved = controller.gain_sets.get(number) or [_defaults()] * controller.settings.axes
+    saved = controller.gain_sets.get(number)
     axes = range(controller.settings.axes_in_use)
-    return [_line(name, [saved[axis_index][name].value for axis_index in axes]) for name in SET_COMMANDS]
+    shown = [(saved[axis_index] if saved else never_saved()).values for axis_index in axes]
+    return [_line(name, [values[name].value for values in shown]) for name in SET_COMMANDS]
 
 
-def _defaults() -> AxisGains:
-    return {name: Quantity(Decimal(str(commands()[name].fields.default)), 1) for name in SET_COMMANDS}
+def never_saved() -> SavedGains:
+    """What a set shows that was never saved: the settings as at power-up."""
+    values = {name: Quantity(Decimal(str(commands()[name].fields.default)), 1) for name in SET_COMMANDS}
+    return SavedGains(ENCODER_SOURCE, values)
 
 
 def _line(name: str, values: list[Decimal]) -> ReplyLine:

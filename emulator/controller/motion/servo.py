@@ -1,4 +1,4 @@
-"""Drives and the servo loop: DRIVE, the gains and limits of the control law, feedback, rates, target zone."""
+"""Drives and the servo loop: DRIVE, the gains and limits of the control law, dither, rates, target zone."""
 
 from __future__ import annotations
 
@@ -75,6 +75,17 @@ def apply_output(controller: Controller, command: Command, changed: list[int]) -
         )
 
 
+@applies("SDTAMP", "SDTFR")
+def apply_dither(controller: Controller, command: Command, changed: list[int]) -> None:
+    """Dither: its amplitude, and the servo samples of half a period (assumed L)."""
+    for axis_index in changed:
+        controller.engine.set_dither(
+            axis_index,
+            amplitude_v=float(controller.settings.number("SDTAMP", axis_index)),
+            half_period_samples=controller.settings.integer("SDTFR", axis_index),
+        )
+
+
 @applies("SMPER")
 def apply_position_error_limit(controller: Controller, command: Command, changed: list[int]) -> None:
     """Maximum allowable position error; 0 is not watched."""
@@ -82,9 +93,9 @@ def apply_position_error_limit(controller: Controller, command: Command, changed
         controller.engine.set_position_error_limit(axis_index, int(controller.settings.counts("SMPER", axis_index)))
 
 
-@applies("STRGTE", "STRGTD", "STRGTV", "STRGTT")
+@applies("STRGTE", "STRGTD", "STRGTV", "STRGTT", "ERES")
 def apply_target_zone(controller: Controller, command: Command, changed: list[int]) -> None:
-    """Target zone; STRGTE0 clears a time-out."""
+    """Target zone, STRGTV unscaled being in revolutions of ERES counts; STRGTE0 clears a time-out."""
     settings = controller.settings
     for axis_index in changed:
         enable = settings.flag("STRGTE", axis_index)
@@ -98,24 +109,6 @@ def apply_target_zone(controller: Controller, command: Command, changed: list[in
         if not enable:
             controller.engine.clear_status(axis_index, AxisStatus.TARGET_ZONE_TIMEOUT.mask)
             clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
-
-
-@applies("SFB")
-def apply_feedback(controller: Controller, command: Command, changed: list[int]) -> None:
-    """Feedback source: the commanded position takes over the new feedback."""
-    for axis_index in changed:
-        controller.engine.set_feedback(axis_index, controller.settings.integer("SFB", axis_index))
-
-
-@applies("ENCPOL", "CMDDIR")
-def apply_polarity(controller: Controller, command: Command, changed: list[int]) -> None:
-    """Encoder and command polarity."""
-    for axis_index in changed:
-        controller.engine.set_polarity(
-            axis_index,
-            encoder=int(controller.settings.flag("ENCPOL", axis_index)),
-            command=int(controller.settings.flag("CMDDIR", axis_index)),
-        )
 
 
 @applies("SSFR")

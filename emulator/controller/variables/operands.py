@@ -226,12 +226,6 @@ def _read_analog_voltage(controller: Controller, operand: Operand) -> Value:
     return round(Decimal(controller.analog.volts(channel_index)), VOLT_PLACES)
 
 
-@reads("ANI", "PANI")
-def _read_ani(controller: Controller, operand: Operand) -> Value:
-    """ANI feedback, volts and position: nothing is connected to it, so zero, as TANI reports."""
-    return Decimal(0)
-
-
 @reads(RADIAN_MODE.name)
 def _read_radian_mode(controller: Controller, operand: Operand) -> Value:
     return Decimal(int(controller.settings.flag(RADIAN_MODE.name)))

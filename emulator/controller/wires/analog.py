@@ -1,4 +1,4 @@
-"""Analogue inputs: the three joystick channels through their 8-bit converter, and the ANI feedback inputs.
+"""Analogue inputs: the three joystick channels through their 8-bit converter.
 
 ANVO puts a programmed voltage in place of a channel's wire, in front of the converter, for the channels ANVOEN names;
 it then acts wherever the channel is used.
@@ -14,10 +14,9 @@ from emulator.controller.readings import VOLT_PLACES
 from protocol.catalogue import CommandRow
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, CommandError
-from protocol.fields import axis_indexes, checked_number, range_of
+from protocol.fields import checked_number, range_of
 from protocol.numbers import format_fixed
 from protocol.reply import ReplyLine
-from protocol.reply_shapes import numbers_line
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -89,15 +88,6 @@ def override_analog(controller: Controller, command: Command) -> Lines:
 def apply_analog_override(controller: Controller, command: Command, changed: list[int]) -> None:
     """A channel may read another voltage now: whoever follows it looks at the next system update."""
     controller.engine.report_wires()
-
-
-@handles("TANI", "TPANI")
-def report_analog_position(controller: Controller, command: Command) -> Lines:
-    """TANI, TPANI: positions of the ANI feedback inputs, which have no signal: 0 counts (without the option too)."""
-    row = _row(command)
-    indexes = axis_indexes(command, controller.settings.axes_in_use)
-    places = [controller.settings.places("distance", index, 0) for index in indexes]
-    return [numbers_line(row, command.axis, [Decimal(0)] * len(places), places)]
 
 
 def _row(command: Command) -> CommandRow:

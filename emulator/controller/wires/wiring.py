@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from emulator.engine import ENABLE_MASK, Engine, Wire, wire_mask
+from emulator.engine import ENABLE_MASK, AnalogSensor, Engine, Wire, wire_mask
 from emulator.machine import Machine
 from protocol.status import OtherInputs
 
@@ -32,6 +32,9 @@ JOYSTICK_CONTACTS = {
 LOWEST_ANALOG_V, HIGHEST_ANALOG_V = 0.0, 2.5
 """Range of the joystick channels (6250 UG p.67)."""
 
+ANI_RANGE_V = 10.0
+"""Range of the ANI feedback inputs, +-V (assumed M)."""
+
 
 class Wiring:
     """The terminals of one unit; wire names are ``enable``, ``axis1.positive_limit`` ... ``input.1`` ...
@@ -44,6 +47,7 @@ class Wiring:
         self._masks = self._name_wires(len(machine.axes))
         self._input_masks = self._name_inputs()
         self.analog_volts = list(machine.wires.analog)
+        self._ani_sensors = [AnalogSensor(axis.ani.volts_at_zero, axis.ani.volts_per_rev) for axis in machine.axes]
         self._connect(machine)
 
     def _name_wires(self, axes: int) -> dict[str, int]:
@@ -119,6 +123,26 @@ class Wiring:
             raise ValueError(f"a joystick channel takes 0 to 2.5 V, not {volts}")
         self.analog_volts[channel - 1] = volts
         self._engine.report_wires()
+
+    def force_ani(self, axis: int, *, volts: float) -> None:
+        """Hold the ANI feedback input of an axis (1 ...) at a voltage.
+
+        Raises:
+            KeyError: no such axis.
+            ValueError: a voltage outside +-10 V, or the option is not fitted.
+        """
+        if not -ANI_RANGE_V <= volts <= ANI_RANGE_V:
+            raise ValueError(f"an ANI feedback input takes -10 to 10 V, not {volts}")
+        self._connect_ani(axis, AnalogSensor(volts_at_zero=volts))
+
+    def release_ani(self, axis: int) -> None:
+        """Connect the ANI feedback input of an axis (1 ...) to its sensor again; errors as ``force_ani``."""
+        self._connect_ani(axis, self._ani_sensors[axis - 1] if 1 <= axis <= len(self._ani_sensors) else None)
+
+    def _connect_ani(self, axis: int, sensor: AnalogSensor | None) -> None:
+        if sensor is None or not 1 <= axis <= len(self._ani_sensors):
+            raise KeyError(f"no axis {axis}; there are 1 to {len(self._ani_sensors)}")
+        self._engine.set_analog_sensor(axis - 1, sensor)
 
     @property
     def enable_grounded(self) -> bool:
