@@ -4,6 +4,7 @@
 #   make bench   measure; prints a table and writes bench.json
 #   make fuzz    a million commands of random programs (ARGS="--commands N --seed N" for another run)
 #   make lint    ruff and mypy
+#   make pictures  draw the pictures of docs/tuning anew
 
 PYTHON ?= python3
 VENV := .venv
@@ -12,7 +13,7 @@ STAMP := $(VENV)/.installed
 ARGS ?=
 JOBS ?= 2
 
-.PHONY: run test bench fuzz lint clean
+.PHONY: run test bench fuzz lint pictures clean
 
 run: $(STAMP)
 	@exec $(BIN)/python -m emulator serve $(ARGS)
@@ -30,6 +31,16 @@ lint: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+
+# The seven steps of the tuning guide, and a change of gain sets in motion.
+TUNING := docs/tuning
+pictures: $(STAMP)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[plot]'
+	$(BIN)/python -m emulator tune $(TUNING)/demonstration.toml --out $(TUNING) --gains \
+	  SGP=2 SGP=15 SGP=15,SGV=2 SGP=105,SGV=2 SGP=105,SGV=2.6 SGP=105,SGV=2.3 SGP=85,SGV=2.3
+	$(BIN)/python -m emulator scope $(TUNING)/demonstration.toml --run $(TUNING)/gain_sets.txt \
+	  --signals axis1.position.error,axis1.servo.proportional,axis1.servo.velocity_feedforward,axis1.servo.output \
+	  --out $(TUNING)/gain-sets.png
 
 # The stamp makes the second run instant; a changed pyproject.toml installs again.
 $(STAMP): pyproject.toml

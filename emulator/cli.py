@@ -9,6 +9,7 @@ Every mistake of the user is one line on stderr and exit status 2.
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
@@ -53,11 +54,23 @@ def main(arguments: Sequence[str] | None = None, *, build: Build | None = None) 
         parser.print_help()
         return 0
     if parsed.command != "serve":
-        return int(parsed.carry_out(parsed))
+        return _carry_out(parsed)
     options = _serve_options(parsed)
     from emulator.server import serve
 
     return serve(options, build)
+
+
+def _carry_out(parsed: argparse.Namespace) -> int:
+    """Do what the command brought along; whoever reads its output may stop reading."""
+    try:
+        status = int(parsed.carry_out(parsed))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Python flushes stdout once more at its end, and would complain.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    return status
 
 
 def parse_serve_options(arguments: Sequence[str]) -> ServeOptions:

@@ -26,6 +26,7 @@ from .events import (
 from .kernels import Record, Records, kernel, seldom
 from .plants import step_plant
 from .scope import (
+    NEVER_FULL,
     SCOPE_OFF,
     SCOPE_TRIGGERED,
     SCOPE_WAITING,
@@ -363,13 +364,13 @@ def run_recorded(
     channels, unit_channels = scope.channels, scope.unit_channels
     unit_words, axis_words = scope.unit_words, scope.axis_words
     # What changes with every row is kept in variables meanwhile: going through the record costs as much as the row.
-    place, written, to_go = record["next_word"], record["rows_written"], record["rows_to_go"]
-    to_row, every = record["samples_to_row"], record["every"]
-    width = record["axis_channels"] + record["unit_channels"]
+    place, written, to_row = record["next_word"], record["rows_written"], record["samples_to_row"]
+    every, width = record["every"], record["axis_channels"] + record["unit_channels"]
     waiting = record["state"] == SCOPE_WAITING
+    last = NEVER_FULL if waiting else written + record["rows_to_go"]
     wants_status = record["wants_status"] != 0
     fired = 0
-    while fired == 0 and to_go != 0 and unit["next_sample_ns"] <= until_ns:
+    while fired == 0 and written != last and unit["next_sample_ns"] <= until_ns:
         fired = servo_sample(unit, axes, plants, segments, watches)
         to_row -= 1
         if to_row != 0:
@@ -377,17 +378,17 @@ def run_recorded(
         to_row = every
         if wants_status:
             refresh_status(axes, unit["axis_count"])
-        if waiting:
-            waiting = not triggers(scope, written)
+        if waiting and triggers(scope, written):
+            waiting = False
+            last = written + record["rows_to_go"]
         write_row(place, channels, unit_channels, unit_words, axis_words, ring)
         place += width
         place = place if place < len(ring) else 0
         written += 1
-        if not waiting:
-            to_go -= 1
-    record["next_word"], record["rows_written"], record["rows_to_go"] = place, written, to_go
-    record["samples_to_row"] = to_row
-    record["state"] = SCOPE_OFF if to_go == 0 else (SCOPE_WAITING if waiting else SCOPE_TRIGGERED)
+    record["next_word"], record["rows_written"], record["samples_to_row"] = place, written, to_row
+    if not waiting:
+        record["rows_to_go"] = last - written
+        record["state"] = SCOPE_OFF if written == last else SCOPE_TRIGGERED
     return run(unit, axes, plants, segments, watches, fired, until_ns)
 
 

@@ -21,6 +21,9 @@ SCOPE_OFF = 0
 SCOPE_WAITING = 1
 SCOPE_TRIGGERED = 2
 
+NEVER_FULL = -1
+"""A count of rows that is not reached."""
+
 NO_WORD = -1
 """Stands for "no word" where one may be left out."""
 

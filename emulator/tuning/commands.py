@@ -123,6 +123,8 @@ def run_sweep(parsed: argparse.Namespace) -> int:
 
 
 def _refuse(parsed: argparse.Namespace, error: Exception) -> int:
+    if isinstance(error, BrokenPipeError):
+        raise error
     reason = " ".join(str(error).split())
     if isinstance(error, OSError) and error.filename is not None:
         reason = f"{error.filename}: {error.strerror}"

@@ -67,7 +67,7 @@ def verdict(measures: StepMeasures, *, step_counts: float, tripped: bool = False
         return Verdict.UNDER_DAMPED
     if beyond > WELL_DAMPED_PERCENT:
         return Verdict.SLIGHTLY_UNDER_DAMPED
-    if beyond <= NO_OVERSHOOT_PERCENT and _sluggish(measures):
+    if measures.overshoot_percent <= NO_OVERSHOOT_PERCENT and _sluggish(measures):
         return Verdict.OVER_DAMPED
     return Verdict.WELL_DAMPED
 

@@ -21,6 +21,7 @@ GROUPS = {
     "start": "start",
     "kernel": "kernel",
     "c-loop": "c_loop",
+    "scope": "scope",
     "plants": "plants",
     "controller": "controller",
     "interpreter": "interpreter",

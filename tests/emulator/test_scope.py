@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import doctest
+import importlib.util
 import subprocess
 import sys
 from pathlib import Path
@@ -114,6 +116,13 @@ def test_units_record_for_themselves() -> None:
     assert first.scope.read()["axis1.moving"].sum() == 0
 
 
+def test_the_guide_is_right() -> None:
+    guide = Path(__file__).parents[2] / "docs" / "scope.md"
+    result = doctest.testfile(str(guide), module_relative=False)
+    assert result.attempted > 0
+    assert result.failed == 0
+
+
 class TestCommand:
     """`oem6250 scope`."""
 
@@ -192,6 +201,31 @@ class TestCommand:
         told = capsys.readouterr().err
         assert wrong in told
         assert told.count("\n") == 1
+
+    def test_a_reader_may_stop_reading(self) -> None:
+        done = subprocess.run(
+            f"{sys.executable} -m emulator scope --list | head -1",
+            shell=True,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert done.stdout.startswith("axis1.position.commanded")
+        assert done.stderr == ""
+
+    def test_it_draws_a_picture_or_says_what_is_missing(
+        self, commands: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        out = tmp_path / "move.png"
+        arguments = ["scope", "--run", str(commands), "--out", str(out)]
+        if importlib.util.find_spec("matplotlib"):
+            assert main(arguments) == 0
+            assert out.read_bytes().startswith(b"\x89PNG")
+            return
+        with pytest.raises(SystemExit) as raised:
+            main(arguments)
+        assert raised.value.code == 2
+        assert "oem6250[plot]" in capsys.readouterr().err
 
     def test_it_runs_as_a_program(self, tmp_path: Path) -> None:
         out = tmp_path / "x.csv"

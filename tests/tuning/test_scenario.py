@@ -7,7 +7,6 @@ two encoder counts: it depends on where between two counts the shaft starts, so 
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -88,7 +87,9 @@ class TestScenario:
         assert well.ripple_v == 0.0
 
     def test_4_overshoot_significant_and_chattering(self, phase: float) -> None:
-        assert response(CHATTERING, phase).overshoot_percent > 3 * response(SLIGHTLY_UNDER_DAMPED, phase).overshoot_percent
+        assert (
+            response(CHATTERING, phase).overshoot_percent > 3 * response(SLIGHTLY_UNDER_DAMPED, phase).overshoot_percent
+        )
         assert 0.15 < response(CHATTERING, phase).ripple_v < 1.0
 
     def test_5_overshoot_reduced_chatter_still_pronounced(self, phase: float) -> None:
