@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NoReturn
 from emulator import __version__
 from emulator.options import ServeOptions
 from emulator.recording.commands import add_replay, add_transcript
-from emulator.scope_command import add_scope
+from emulator.scope.command import add_scope
 from emulator.serial_address import SerialAddress, parse_serial
 from emulator.state.command import add_state
 from emulator.tuning.commands import add_sweep, add_tune

@@ -2,3 +2,6 @@
 
 Nothing is imported here: `oem6250 --help` and the servo itself must not pay for numpy batches or pictures.
 """
+
+SWEPT_GAINS = ("SGP", "SGI", "SGV", "SGVF", "SGAF", "SGILIM")
+"""The gains a sweep can vary."""

@@ -6,16 +6,16 @@ Only argparse is imported at the top, so that `--help` stays quick. Mistakes of 
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from emulator.tuning import SWEPT_GAINS
 
 if TYPE_CHECKING:
     from emulator.tuning.sampling import Span
 
 AXES = 2
-SWEPT_GAINS = ("SGP", "SGI", "SGV", "SGVF", "SGAF", "SGILIM")
 SORTS = ("settling", "overshoot", "rise", "t90", "error", "output", "ripple", "margin")
 TABLE_ENDINGS = (".csv", ".npz", ".json")
 MAX_DURATION_S = 100.0
@@ -132,21 +132,6 @@ def _refuse(parsed: argparse.Namespace, error: Exception) -> int:
     return 2
 
 
-def spans_of(parsed: argparse.Namespace) -> dict[str, Span]:
-    """The ranges asked for by name; ValueError for a --vary that is none."""
-    from emulator.tuning.sampling import parse_span
-
-    spans = {name: getattr(parsed, name.lower()) for name in SWEPT_GAINS if getattr(parsed, name.lower()) is not None}
-    for text in parsed.vary:
-        name, sign, span = text.partition("=")
-        if not sign:
-            raise ValueError(f"--vary {text!r} is not plant.NAME=RANGE, as in plant.inertia_kg_m2=0.8:1.2")
-        if name in spans:
-            raise ValueError(f"--vary {name} is given twice")
-        spans[name] = parse_span(span)
-    return spans
-
-
 def _span(text: str) -> Span:
     from emulator.tuning.sampling import parse_span
 
@@ -202,8 +187,3 @@ def _table_path(text: str) -> Path:
     if path.suffix not in TABLE_ENDINGS:
         raise argparse.ArgumentTypeError(f"{text!r} does not end in {', '.join(TABLE_ENDINGS)}")
     return path
-
-
-def progress_wanted(*, verbose: bool) -> bool:
-    """Whether to show progress: on a terminal, or when asked to."""
-    return verbose or sys.stderr.isatty()

@@ -11,10 +11,10 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from emulator.machine import Machine
-from emulator.tuning.commands import progress_wanted, spans_of
+from emulator.tuning import SWEPT_GAINS
 from emulator.tuning.executors import cluster, local, processors
 from emulator.tuning.experiment import Move, StepExperiment
-from emulator.tuning.sampling import make_plan
+from emulator.tuning.sampling import Span, make_plan, parse_span
 from emulator.tuning.sweep import Progress, SweepPlan, SweepResult, sweep
 from emulator.tuning.sweep_table import best_sets, render_sets, write_table
 
@@ -35,7 +35,7 @@ def run(parsed: argparse.Namespace) -> int:
         raise ValueError(f"--out: there is no folder {parsed.out.parent}")
     began_s = time.monotonic()
     with _executor(parsed) as executor:
-        shown = _progress(began_s) if progress_wanted(verbose=parsed.verbose) else None
+        shown = _progress(began_s) if _progress_wanted(verbose=parsed.verbose) else None
         result = sweep(plan, executor, progress=shown)
     if parsed.out is not None:
         write_table(parsed.out, result)
@@ -51,7 +51,20 @@ def _plan(parsed: argparse.Namespace) -> SweepPlan:
         duration_s=parsed.duration,
         settle_counts=parsed.settle,
     )
-    return make_plan(machine, axis_index, experiment, spans_of(parsed), random_samples=parsed.random, seed=parsed.seed)
+    return make_plan(machine, axis_index, experiment, _spans_of(parsed), random_samples=parsed.random, seed=parsed.seed)
+
+
+def _spans_of(parsed: argparse.Namespace) -> dict[str, Span]:
+    """The ranges asked for by name; ValueError for a --vary that is none."""
+    spans = {name: getattr(parsed, name.lower()) for name in SWEPT_GAINS if getattr(parsed, name.lower()) is not None}
+    for text in parsed.vary:
+        name, sign, span = text.partition("=")
+        if not sign:
+            raise ValueError(f"--vary {text!r} is not plant.NAME=RANGE, as in plant.inertia_kg_m2=0.8:1.2")
+        if name in spans:
+            raise ValueError(f"--vary {name} is given twice")
+        spans[name] = parse_span(span)
+    return spans
 
 
 @contextmanager
@@ -59,6 +72,11 @@ def _executor(parsed: argparse.Namespace) -> Iterator[Executor]:
     context = cluster(parsed.cluster) if parsed.cluster is not None else local(parsed.jobs or processors())
     with context as executor:
         yield executor
+
+
+def _progress_wanted(*, verbose: bool) -> bool:
+    """Whether to show progress: on a terminal, or when asked to."""
+    return verbose or sys.stderr.isatty()
 
 
 def _progress(began_s: float) -> Progress:

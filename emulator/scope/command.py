@@ -154,10 +154,10 @@ def _names(text: str | None) -> list[str]:
 
 
 def _writer(path: Path) -> Callable[[Path, Recording], None]:
-    from emulator import scope_files
+    from emulator.scope.files import write_csv, write_npz, write_picture
 
-    writers = {".csv": scope_files.write_csv, ".npz": scope_files.write_npz}
-    pictures = {".png": scope_files.write_picture, ".svg": scope_files.write_picture}
+    writers = {".csv": write_csv, ".npz": write_npz}
+    pictures = {".png": write_picture, ".svg": write_picture}
     writer = (writers | pictures).get(path.suffix.lower())
     if writer is None:
         raise CommandError(f"--out {path}: found {path.suffix or 'no suffix'!r}; allowed: .csv, .npz, .png, .svg")
