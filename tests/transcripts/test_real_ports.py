@@ -180,7 +180,8 @@ def power_cycle(client: LineClient, transcript: Transcript) -> None:
     """
     memory = Machine.parse(transcript.machine).memory
     division = f"!MEMORY{memory.program_bytes},{memory.compiled_bytes}\n"
-    client.write(b"!HALT\n!K\n" + division.encode() + b"!VARCLR\n!STARTP CLR\n!RESET\n")
+    kept_over_reset = b"!VARCLR\n!STARTP CLR\n!CMDDIR00\n!ENCPOL00\n"
+    client.write(b"!HALT\n!K\n" + division.encode() + kept_over_reset + b"!RESET\n")
     received, deadline = b"", time.monotonic() + PATIENCE_S
     while b"REMOTE PANEL\r" not in received and time.monotonic() < deadline:
         received += client.receive(QUIET_S)
