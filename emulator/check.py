@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from emulator.machine import Axis, Machine, MachineError, TorqueDrive
+from emulator.machine import Axis, Machine, MachineError
 from emulator.machine_keys import differing_keys
 
 
@@ -35,7 +35,7 @@ def describe(machine: Machine) -> str:
 
 
 def _axis(number: int, axis: Axis) -> str:
-    kind = "torque drive" if isinstance(axis.plant, TorqueDrive) else "velocity drive"
+    kind = str(axis.plant.__struct_config__.tag).replace("_", " ")
     return f"axis {number}: {kind}, {axis.encoder.counts_per_rev} counts/rev"
 
 

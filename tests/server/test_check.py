@@ -70,3 +70,12 @@ def test_what_looks_like_nothing_is_only_refused() -> None:
     with pytest.raises(MachineError, match="keys") as refused:
         Machine.parse("[servo]\nzzz = 1")
     assert "did you mean" not in str(refused.value)
+
+
+def test_every_kind_of_plant_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "press.toml"
+    path.write_text('[axis1.plant]\npreset = "documented_cylinder"\n[axis2.plant]\nkind = "elastic_coupling"\n')
+    assert main(["check", str(path)]) == 0
+    told = capsys.readouterr().out
+    assert "axis 1: hydraulic cylinder" in told
+    assert "axis 2: elastic coupling" in told
