@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from emulator import __version__
+from emulator.fault_listing import add_faults
 from emulator.options import ServeOptions
 from emulator.recording.commands import add_replay, add_transcript
 from emulator.scope.command import add_scope
@@ -97,6 +98,7 @@ def _parser() -> argparse.ArgumentParser:
     add_state(commands)
     add_tune(commands)
     add_sweep(commands)
+    add_faults(commands)
     return parser
 
 

@@ -112,6 +112,10 @@ class Clock:
         """The virtual time it is by the wall; in a free run, the time reached."""
         return self.reached_ns if self.free_running else self._virtual_ns(self._wall())
 
+    def skip(self, ns: int) -> None:
+        """So much virtual time is to pass at once, beside what the wall gives: the machines catch up with it."""
+        self._anchor_ns += ns
+
     @property
     def behind(self) -> bool:
         """True while the machines have more to catch up than one slice."""

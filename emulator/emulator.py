@@ -17,8 +17,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
+from emulator.agenda import Agenda
 from emulator.channel import OutputLike
 from emulator.controller import Controller
 from emulator.engine.machine_code import OnBuild
@@ -27,11 +28,16 @@ from emulator.registry import ACTIONS, Value, describe_signals
 from emulator.scope import UnitScope
 
 if TYPE_CHECKING:
-    from emulator.recording.recorded import RecordedUnit
-    from emulator.recording.recorder import Recorder
+    from emulator.faults.injection import UnitFaults
+    from emulator.recording.recorded import RecordedUnit, TakesLines
     from emulator.state.memory import Memory
 
 NS_PER_S = 1_000_000_000
+
+T = TypeVar("T")
+
+LOOK_AT_LINE_NS = 1_000_000
+"""How often to look for characters on a timed line: about one at 9600 baud."""
 
 HOST_CHANNEL = 0
 """The connection meant when none is named."""
@@ -59,8 +65,9 @@ class Signals(Mapping[str, Value]):
 class Unit:
     """One unit of an emulator: its wire end, its signals, its actions."""
 
-    def __init__(self, controller: Controller) -> None:
+    def __init__(self, controller: Controller, agenda: Agenda | None = None) -> None:
         self.controller = controller
+        self._agenda = Agenda() if agenda is None else agenda
         self._wire: Controller | RecordedUnit = controller
         self.signals: Mapping[str, Value] = Signals(controller)
         self.scope = UnitScope(controller)
@@ -81,6 +88,11 @@ class Unit:
         self._unread[channel].clear()
         return data
 
+    def hang_up(self, *, channel: int = HOST_CHANNEL) -> None:
+        """A connection ends: half a command of it is forgotten, and what it had not read."""
+        self._wire.detach(channel)
+        self._unread.pop(channel, None)
+
     def take_output(self) -> list[OutputLike]:
         """The output since last asked with its virtual times, for every channel together."""
         self._sort_output()
@@ -97,7 +109,14 @@ class Unit:
             raise KeyError(f"no action {action!r}; there are {', '.join(ACTIONS)}")
         ACTIONS[action].carry_out(self.controller, parameters)
 
-    def record(self, recorder: Recorder, *, unit: int) -> RecordedUnit:
+    @property
+    def faults(self) -> UnitFaults:
+        """The faults of the registry: ``with unit.faults.limit_open(axis=1) as fault:`` (docs/testing.md)."""
+        from emulator.faults.injection import UnitFaults
+
+        return UnitFaults(_FaultBench(self, self._agenda))
+
+    def record(self, recorder: TakesLines, *, unit: int) -> RecordedUnit:
         """Write everything that goes in and out from now on into a recording, as its unit of that number."""
         from emulator.recording.recorded import RecordedUnit
 
@@ -116,6 +135,27 @@ class Unit:
             channels = list(self._unread) or [HOST_CHANNEL] if output.channel is None else [output.channel]
             for channel in channels:
                 self._unread[channel] += output.data
+
+
+def _next_output_ns(controller: Controller) -> int:
+    """When to look for output that no event tells of: held back by a fault, or characters on their way."""
+    held_ns = max(controller.disturbances.next_ns, controller.now_ns + 1)
+    return min(held_ns, controller.now_ns + LOOK_AT_LINE_NS) if controller.line.busy else held_ns
+
+
+class _FaultBench:
+    """A unit in this process whose time stands still between calls."""
+
+    def __init__(self, unit: Unit, agenda: Agenda) -> None:
+        self.controller = unit.controller
+        self.at = agenda.enter
+        self._unit = unit
+
+    def do(self, action: str, values: Mapping[str, Value]) -> None:
+        self._unit.do(action, **values)
+
+    def ask(self, function: Callable[[], T]) -> T:
+        return function()
 
 
 class Emulator:
@@ -142,7 +182,8 @@ class Emulator:
         state: str | Path | None = None,
     ) -> None:
         machines = [machine or Machine.default()] if machine is None or isinstance(machine, Machine) else list(machine)
-        self.units = [Unit(Controller(each, on_build=on_build)) for each in machines]
+        self._agenda = Agenda()
+        self.units = [Unit(Controller(each, on_build=on_build), self._agenda) for each in machines]
         self._memory = None if state is None else self._open_memory(state)
         self._finish: Callable[[], None] | None = None if record is None else self._record(record, machines)
         for unit in self.units:
@@ -204,6 +245,33 @@ class Emulator:
 
     def advance_to(self, at_ns: int) -> None:
         """Let virtual time pass up to a moment (ns)."""
+        while self._agenda.next_ns <= at_ns:
+            due_ns = self._agenda.next_ns
+            self._run_to(due_ns)
+            self._agenda.carry_out(due_ns)
+        self._run_to(at_ns)
+
+    def at(self, at_s: float, function: Callable[[], None]) -> None:
+        """Have a function called when virtual time reaches a moment (s)."""
+        self.at_ns(round(at_s * NS_PER_S), function)
+
+    def at_ns(self, at_ns: int, function: Callable[[], None]) -> None:
+        """The same with the moment in ns."""
+        self._agenda.enter(at_ns, function)
+
+    def advance_to_event(self, until_ns: int, *, unit: int = 0) -> None:
+        """Let virtual time pass up to the next thing that happens in one unit, at most to a moment (ns).
+
+        A thing that happens is one that Python sees: a move ends, a limit trips, a wait is over, a reply is said.
+        """
+        first = self.units[unit].controller
+        if self._agenda.next_ns <= first.now_ns:
+            self._agenda.carry_out(first.now_ns)
+        if first.now_ns < until_ns:
+            first.advance_to_event(min(until_ns, self._agenda.next_ns, _next_output_ns(first)))
+        self.advance_to(first.now_ns)
+
+    def _run_to(self, at_ns: int) -> None:
         for unit in self.units:
             unit.controller.advance(at_ns)
 

@@ -6,7 +6,7 @@ are declared once and exist for every axis as ``axis1.`` ..."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from emulator.controller import Controller
@@ -15,8 +15,10 @@ from emulator.controller.wires.panel_commands import press, release
 from emulator.controller.wires.thumbwheel_bank import dial
 from emulator.engine import EncoderWiring
 from emulator.engine.trace import Source
+from emulator.faults import FAULTS, Fault
+from emulator.parameters import Parameter, Value, checked
 
-Value = float | int | bool | str
+__all__ = ["ACTIONS", "FAULTS", "Action", "Fault", "Parameter", "Signal", "Value", "describe_signals"]
 
 NS_PER_S = 1_000_000_000
 
@@ -36,16 +38,6 @@ class Signal:
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter:
-    """A parameter of an action: its type and, for numbers, its unit."""
-
-    name: str
-    kind: type
-    sentence: str
-    unit: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class Action:
     """Something to do; the function gets the controller and the parameters by name."""
 
@@ -61,16 +53,7 @@ class Action:
             KeyError: a parameter is missing or unknown.
             TypeError: a parameter has the wrong type.
         """
-        expected = {parameter.name: parameter for parameter in self.parameters}
-        if set(values) != set(expected):
-            raise KeyError(
-                f"{self.name} takes {', '.join(expected) or 'nothing'}, not {', '.join(values) or 'nothing'}"
-            )
-        for name, value in values.items():
-            kind = expected[name].kind
-            fits = isinstance(value, (int, float) if kind is float else kind)
-            if not fits or (isinstance(value, bool) and kind is not bool):
-                raise TypeError(f"{self.name}: {name} must be {kind.__name__}, not {value!r}")
+        values = checked(self.name, self.parameters, values)
         if controller.around_action is None:
             self.function(controller, **values)
             return
@@ -387,6 +370,24 @@ MACHINE_ACTIONS: tuple[tuple[str, str, Parameter, Callable[..., None]], ...] = (
 )
 """What can be changed about drives, loads and encoders while they run; each takes the axis as well."""
 
+
+def _fault_actions(fault: Fault) -> Iterator[Action]:
+    """A fault as actions, so that whatever carries out or records actions knows faults too."""
+    yield Action(
+        f"fault_{fault.name}",
+        fault.sentence,
+        fault.parameters,
+        lambda controller, **values: fault.apply(controller, values),
+    )
+    if fault.lasting:
+        yield Action(
+            f"lift_{fault.name}",
+            f"put an end to this: {fault.sentence}",
+            fault.place_parameters(),
+            lambda controller, **values: fault.lift(controller, values),
+        )
+
+
 ACTIONS: Mapping[str, Action] = {
     action.name: action
     for action in (
@@ -445,5 +446,6 @@ ACTIONS: Mapping[str, Action] = {
             _advance_time,
         ),
         *(Action(name, sentence, (AXIS, parameter), do) for name, sentence, parameter, do in MACHINE_ACTIONS),
+        *(action for fault in FAULTS.values() for action in _fault_actions(fault)),
     )
 }

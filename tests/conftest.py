@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from importlib.metadata import entry_points
+
 import pytest
+
+_INSTALLED = any(point.value == "clients.pytest_plugin" for point in entry_points(group="pytest11"))
+pytest_plugins = ["pytester"] if _INSTALLED else ["pytester", "clients.pytest_plugin"]
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

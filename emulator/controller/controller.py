@@ -7,9 +7,10 @@ same bytes leave at the same times.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from emulator.controller import dispatch, nonvolatile, words
 from emulator.controller.alarms import Alarms
@@ -20,6 +21,7 @@ from emulator.controller.dispatch import handles
 from emulator.controller.faults import Faults
 from emulator.controller.interpreter import Interpreter
 from emulator.controller.line import InstantLine, build_line
+from emulator.controller.line.disturbances import Disturbances
 from emulator.controller.motion.feedback import FeedbackSources
 from emulator.controller.motion.gain_sets import SavedGains
 from emulator.controller.motion.homing import Homing
@@ -36,6 +38,7 @@ from emulator.controller.variables.data_programs import DataPrograms
 from emulator.controller.variables.operands import Operands
 from emulator.controller.variables.store import Variables
 from emulator.controller.variables.timers import Timer
+from emulator.controller.waits import NEVER
 from emulator.controller.wires.analog import Analog
 from emulator.controller.wires.input_functions import InputFunctions
 from emulator.controller.wires.inputs import Inputs
@@ -54,6 +57,9 @@ from protocol.errors import CommandError
 from protocol.line import XOFF, XON, LineAssembler, Token, TokenKind
 from protocol.reply import Framing
 from protocol.status import AxisStatus, ErrorStatus
+
+if TYPE_CHECKING:
+    from emulator.faults.fault import Effect
 
 AroundAction = Callable[[str, Mapping[str, float | int | bool | str]], AbstractContextManager[None]]
 """Who wants to know of actions from outside: gets name and parameters, and is entered while one is carried out."""
@@ -113,6 +119,9 @@ class Controller:
         self.outputs_watched = False
         """The servo is told of every change of the outputs, for its scope."""
         self.around_action: AroundAction | None = None
+        self.disturbances = Disturbances(self.line.take)
+        self.injected: dict[Hashable, Effect] = {}
+        """Faults that are or were in force (``emulator.faults``)."""
         self.memory_damaged = False
         """Non-volatile memory will be found bad at the next power-up."""
         self.memory_lost = False
@@ -140,7 +149,9 @@ class Controller:
     def busy(self) -> bool:
         """Motion, dwell, wait, program or debounce under way: the next output or effect may come by itself."""
         moving = any(self.engine.is_moving(axis_index) for axis_index in range(self.settings.axes))
-        return moving or self.interpreter.busy or self.alarms.pending or self.line.busy
+        held_back = self.engine.time_ns < self.disturbances.next_ns < NEVER
+        waits = self.alarms.pending or self.line.busy or held_back
+        return moving or self.interpreter.busy or waits
 
     def input_full(self, channel: int) -> bool:
         """So many commands of this connection wait that more of its input should stay on the wire."""
@@ -161,6 +172,7 @@ class Controller:
         self.powered = False
         self._lines.clear()
         self.line.power_down()
+        self.disturbances.clear()
 
     def receive(self, data: bytes, *, at_ns: int, channel: int, passed_on: bool = False) -> None:
         """Bytes from a connection at a virtual time (not before ``now_ns``).
@@ -170,6 +182,8 @@ class Controller:
         """
         if at_ns > self.engine.time_ns:
             self.advance(at_ns)
+        if self.disturbances.active:
+            data = self.disturbances.hear(self.engine.time_ns, data)
         if self._instant is None:
             self.line.receive(data, channel, self.line.began_ns(at_ns) if passed_on else self.engine.time_ns)
         elif self.powered:
@@ -191,25 +205,29 @@ class Controller:
 
     def advance(self, until_ns: int) -> None:
         """Run to a virtual time, carrying out what becomes due on the way."""
+        if self.line.holds_hosts:
+            self.line.look()
+        while self.engine.time_ns < until_ns:
+            self.advance_to_event(until_ns)
+
+    def advance_to_event(self, until_ns: int) -> None:
+        """Run to the next thing that happens, at most to a virtual time, and carry out what is due then."""
         engine, interpreter, alarms, line = self.engine, self.interpreter, self.alarms, self.line
-        if line.holds_hosts:
-            line.look()
-        while engine.time_ns < until_ns:
-            look_again_ns = min(interpreter.look_again_ns, alarms.next_ns, line.next_ns)
-            events = engine.run(min(until_ns, look_again_ns))
-            if engine.time_ns >= alarms.next_ns:
-                alarms.carry_out(engine.time_ns)
-            if events:
-                self._act_on(events)
-                interpreter.run()
-            elif engine.time_ns >= look_again_ns:
-                interpreter.run()
-            if self.program_select.looking:
-                self.program_select.look()
-            if line.holds_hosts or engine.time_ns >= line.next_ns:
-                line.carry_out(engine.time_ns)
-            if self.outputs_watched:
-                self.show_outputs()
+        look_again_ns = min(interpreter.look_again_ns, alarms.next_ns, line.next_ns)
+        events = engine.run(min(until_ns, look_again_ns))
+        if engine.time_ns >= alarms.next_ns:
+            alarms.carry_out(engine.time_ns)
+        if events:
+            self._act_on(events)
+            interpreter.run()
+        elif engine.time_ns >= look_again_ns:
+            interpreter.run()
+        if self.program_select.looking:
+            self.program_select.look()
+        if line.holds_hosts or engine.time_ns >= line.next_ns:
+            line.carry_out(engine.time_ns)
+        if self.outputs_watched:
+            self.show_outputs()
 
     def show_outputs(self) -> None:
         """Tell the servo which outputs are on."""
@@ -217,6 +235,8 @@ class Controller:
 
     def take_output(self) -> list[Output]:
         """What has left the unit since last asked."""
+        if self.disturbances.active:
+            return self.disturbances.say(self.engine.time_ns)
         return self.line.take()
 
     def detach(self, channel: int) -> None:

@@ -139,7 +139,7 @@ def servo_axis(unit: Record, axis: Record) -> None:
     volts = limited(axis, volts)
     axis["control_v"] = volts
     axis["previous_dac_v"] = axis["dac_v"]
-    axis["dac_v"] = convert_output(unit, axis["output_sign"] * volts)
+    axis["dac_v"] = axis["stuck_v"] if axis["output_stuck"] != 0 else convert_output(unit, axis["output_sign"] * volts)
 
 
 @kernel

@@ -189,6 +189,12 @@ class Engine(FeedbackInputs):
         self.scope.note_rates()
         self._set_steps()
 
+    # Faults
+
+    def stick_output(self, axis_index: int, volts: float | None) -> None:
+        """The analogue output stays at a voltage from the next servo sample on; None: it follows the law again."""
+        self._write(axis_index, output_stuck=volts is not None, stuck_v=volts or 0.0)
+
     # Drive
 
     def enable(self, axis_index: int) -> None:

@@ -108,6 +108,8 @@ AXIS_FIELDS: Fields = (
     ("control_v", FLOAT, "control signal within +-10 V and DACLIM, before polarity and converter, V"),
     ("dac_v", FLOAT, "voltage at the analogue output, V"),
     ("previous_dac_v", FLOAT, "the same one servo sample earlier, V"),
+    ("output_stuck", INT, "1 = the output stays at stuck_v whatever the law says (a fault)"),
+    ("stuck_v", FLOAT, "voltage of a stuck output, V"),
     # switches along the travel, and captures
     ("switches_fitted", INT, "1 = at least one switch follows the shaft"),
     ("positive_switch_rev", FLOAT, "true position from which the positive limit switch is operated, rev"),

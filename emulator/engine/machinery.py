@@ -154,6 +154,10 @@ class Machinery(Terminals):
         ints = self._ints[axis_index]
         ints[_SIGN] = ints[_POLARITY] * ints[_OUTPUT_SIGN] * ints[_WIRING]
 
+    def encoder_travel(self, axis_index: int) -> int:
+        """What the encoder itself shows, whatever is counted of it, counts."""
+        return self._ints[axis_index][_READING]
+
     def slip_encoder(self, axis_index: int, counts: int) -> None:
         """Turn the encoder on its shaft by whole counts, forwards positive; its index pulse turns with it."""
         ints = self._ints[axis_index]

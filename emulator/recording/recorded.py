@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
 from emulator.channel import ControllerLike, OutputLike
-from emulator.recording.format import Attached, Detached, Done, Value, received_line, sent_line
+from emulator.recording.format import Attached, Detached, Done, Entry, Value, received_line, sent_line
 from emulator.recording.machine_text import machine_text
 from emulator.recording.recorder import Recorder
 
@@ -25,10 +25,22 @@ RELOAD = "reload_machine_file"
 """How a machine file that was read again stands among the actions; its parameter is the new file's text."""
 
 
+class TakesLines(Protocol):
+    """Where the lines of a recording go: a Recorder, or whoever wants to look at them."""
+
+    def put(self, line: bytes) -> None:
+        """A line, its line feed included."""
+        ...
+
+    def note(self, entry: Entry) -> None:
+        """An entry, to be formatted."""
+        ...
+
+
 class RecordedUnit:
     """Has the face of a controller; `unit` is its number in the recording."""
 
-    def __init__(self, inner: ControllerLike, recorder: Recorder, *, unit: int) -> None:
+    def __init__(self, inner: ControllerLike, recorder: TakesLines, *, unit: int) -> None:
         self._inner = inner
         self._recorder = recorder
         self._unit = unit

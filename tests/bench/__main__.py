@@ -32,6 +32,8 @@ GROUPS = {
     "footprint": "footprint",
     "state": "acknowledged",
     "sweep": "sweep",
+    "testing": "testing",
+    "client": "client_overhead",
 }
 """What can be asked for with --only, and the module whose `measure(effort)` does it."""
 

@@ -216,6 +216,8 @@ class TestActions:
         for name, action in ACTIONS.items():
             assert action.name == name
             assert len(action.sentence) > 15
+            if name.startswith(("fault_", "lift_")):
+                continue  # made from a table of their own: test_fault_injection
             parameters = list(inspect.signature(action.function).parameters)[1:]
             assert [parameter.name for parameter in action.parameters] == parameters
             assert all(parameter.sentence for parameter in action.parameters)

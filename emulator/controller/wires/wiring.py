@@ -100,6 +100,12 @@ class Wiring:
             return bool(self._engine.wires & self._masks[name])
         return bool(self._engine.inputs & self._input_masks[name])
 
+    def closed_at_rest(self, name: str) -> bool:
+        """Whether a contact is closed while no switch along the travel is operated; KeyError as ``closed``."""
+        if name in self._masks:
+            return bool(self._engine.resting_wires & self._masks[name])
+        return self.closed(name)
+
     def set(self, name: str, *, closed: bool) -> None:
         """Close or open a contact; KeyError for a name the unit does not have.
 

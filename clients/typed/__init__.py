@@ -1,0 +1,1 @@
+"""What `python -m clients.generate` makes of the catalogue: typed commands and status words."""
