@@ -11,17 +11,13 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from importlib import import_module
 from typing import TYPE_CHECKING, NoReturn
 
 from emulator import __version__
-from emulator.fault_listing import add_faults
 from emulator.options import ServeOptions
-from emulator.recording.commands import add_replay, add_transcript
-from emulator.scope.command import add_scope
 from emulator.serial_address import SerialAddress, parse_serial
-from emulator.state.command import add_state
-from emulator.tuning.commands import add_sweep, add_tune
 
 if TYPE_CHECKING:
     from emulator.server import Build
@@ -31,6 +27,17 @@ MAX_SPEED = 1e6
 BAUD_RANGE = range(110, 921_601)
 MAX_UNITS = 99
 """Units on one line (6000 PG p.72)."""
+
+LATER: Mapping[str, tuple[str, str, str]] = {
+    "scope": ("emulator.scope.command", "add_scope", "run commands and record signals at servo rate"),
+    "tune": ("emulator.tuning.commands", "add_tune", "walk the guide's tuning procedure on an emulated axis"),
+    "sweep": ("emulator.tuning.commands", "add_sweep", "try many gains and plants in parallel"),
+    "replay": ("emulator.recording.commands", "add_replay", "run a recording again and compare what the unit sends"),
+    "transcript": ("emulator.recording.commands", "add_transcript", "turn a recording into a test transcript"),
+    "state": ("emulator.state.command", "add_state", "look at and change a file of non-volatile memory"),
+    "faults": ("emulator.fault_listing", "add_faults", "what can be made to go wrong, in tests and from Python"),
+}
+"""Commands whose options are only read in when one of them is asked for: module, function that adds them, sentence."""
 
 EXAMPLES = """\
 examples:
@@ -49,7 +56,8 @@ class _Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None, *, build: Build | None = None) -> int:
     """Run the command line; returns the exit status. `build` makes other controllers than the OEM6250 (tests do)."""
-    parser = _parser()
+    arguments = sys.argv[1:] if arguments is None else arguments
+    parser = _parser(arguments)
     parsed = parser.parse_args(arguments)
     if parsed.command is None:
         parser.print_help()
@@ -76,10 +84,11 @@ def _carry_out(parsed: argparse.Namespace) -> int:
 
 def parse_serve_options(arguments: Sequence[str]) -> ServeOptions:
     """What `oem6250 serve ...` with these arguments would be asked to do; SystemExit for a mistake."""
-    return _serve_options(_parser().parse_args(arguments))
+    return _serve_options(_parser(arguments).parse_args(arguments))
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser(arguments: Sequence[str] = ()) -> argparse.ArgumentParser:
+    """The parser for these arguments: complete as far as they need it."""
     parser = _Parser(
         prog="oem6250",
         description="An emulator of the Parker OEM6250 motion controller.",
@@ -91,14 +100,13 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     _add_serve(commands)
     _add_commands(commands)
-    add_scope(commands)
     _add_check(commands)
-    add_replay(commands)
-    add_transcript(commands)
-    add_state(commands)
-    add_tune(commands)
-    add_sweep(commands)
-    add_faults(commands)
+    asked = next((word for word in arguments if not word.startswith("-")), None)
+    for name, (module, add_options, sentence) in LATER.items():
+        if name == asked:
+            getattr(import_module(module), add_options)(commands)
+        else:
+            commands.add_parser(name, help=sentence)
     return parser
 
 

@@ -17,7 +17,6 @@ def add_faults(commands: Any) -> None:
     """The command's arguments."""
     faults = commands.add_parser(
         "faults",
-        help="what can be made to go wrong, in tests and from Python",
         description="Every fault of the control surface: unit.faults.NAME(...) in Python and in the pytest fixtures.",
         allow_abbrev=False,
     )

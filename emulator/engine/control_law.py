@@ -123,11 +123,9 @@ def dither(axis: Record) -> float:
     """Dither for this sample, V: a square wave that turns round every SDTFR servo samples.
 
     That SDTFR counts servo samples of half a period is assumed, low confidence (the 6000 Series names a "dither
-    frequency ratio" and no more); 0 means no dither.
+    frequency ratio" and no more); 0 means no dither, and is not asked for here.
     """
     half_period = axis["dither_samples"]
-    if half_period == 0:
-        return 0.0
     sample = axis["dither_sample"]
     axis["dither_sample"] = sample + 1 if sample + 1 < 2 * half_period else 0
     return float(axis["dither_v"] if sample < half_period else -axis["dither_v"])

@@ -128,14 +128,14 @@ def servo_axis(unit: Record, axis: Record) -> None:
     if axis["feedback_source"] != OPEN_LOOP and axis["enabled"] != 0:
         check_position_error(axis)
     if axis["feedback_source"] != OPEN_LOOP and axis["enabled"] != 0:
-        volts = closed_loop(unit, axis) + dither(axis)
+        volts = closed_loop(unit, axis)
     else:
         axis["commanded_counts"] = axis["feedback_counts"]
         volts = open_loop(axis)
-        if axis["enabled"] != 0:
-            volts += dither(axis)
-        elif unit["drive_off_to_zero"] != 0:
+        if axis["enabled"] == 0 and unit["drive_off_to_zero"] != 0:
             volts = 0.0
+    if axis["dither_samples"] != 0 and axis["enabled"] != 0:
+        volts += dither(axis)
     volts = limited(axis, volts)
     axis["control_v"] = volts
     axis["previous_dac_v"] = axis["dac_v"]

@@ -42,7 +42,7 @@ from .watches import WATCH_SLOTS
 MODE_VARIABLE = "OEM6250_KERNEL"
 CACHE_VARIABLE = "OEM6250_CACHE_DIR"
 
-BUILD_ESTIMATE_S = 10
+BUILD_ESTIMATE_S = 20
 """What a build takes on a small machine, for the message only."""
 
 # numba's run-time helpers that its C callback names for the handling of exceptions. The kernel raises none, so they are

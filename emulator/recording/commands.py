@@ -22,7 +22,6 @@ def add_replay(commands: Any) -> None:
     """The parser of `oem6250 replay`."""
     replay = commands.add_parser(
         "replay",
-        help="run a recording again and compare what the unit sends",
         description="Run a recording (serve --record) again in virtual time and compare every byte and its time. "
         "Exit status: 0 the same, 1 different, 2 a file that cannot be used.",
         allow_abbrev=False,
@@ -39,7 +38,6 @@ def add_transcript(commands: Any) -> None:
     """The parser of `oem6250 transcript`."""
     transcript = commands.add_parser(
         "transcript",
-        help="turn a recording into a test transcript",
         description="Turn a recording into a test transcript: a session as plain text that the tests play to a unit.",
         allow_abbrev=False,
     )

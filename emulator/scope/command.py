@@ -42,7 +42,6 @@ def add_scope(commands: argparse._SubParsersAction[Any]) -> None:
     """Add the command to the command line."""
     scope = commands.add_parser(
         "scope",
-        help="run commands and record signals at servo rate",
         description="Run commands on an emulated unit in virtual time and record any of its signals at servo rate.",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,

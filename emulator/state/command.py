@@ -25,7 +25,6 @@ def add_state(commands: Any) -> None:
     """The parser of the subcommand."""
     state = commands.add_parser(
         "state",
-        help="look at and change a file of non-volatile memory",
         description="Look at and change a file of non-volatile memory (serve --state FILE) that no emulator is using.",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,

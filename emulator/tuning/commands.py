@@ -39,7 +39,6 @@ def add_tune(commands: argparse._SubParsersAction[Any]) -> None:
     """Add `tune` to the command line."""
     tune = commands.add_parser(
         "tune",
-        help="walk the guide's tuning procedure on an emulated axis",
         description="Walk the guide's tuning procedure (SGP, SGV, SGI, feedforward) on an emulated axis, or show the "
         "step responses with given gains.",
         epilog=TUNE_EXAMPLES,
@@ -63,7 +62,6 @@ def add_sweep(commands: argparse._SubParsersAction[Any]) -> None:
     """Add `sweep` to the command line."""
     sweep = commands.add_parser(
         "sweep",
-        help="try many gains and plants in parallel",
         description="Try a grid or a random sample of gains and plants in parallel: overshoot, settling time, peak "
         "output, ripple and margin to chatter of each, and the best sets. A range is LOW:HIGH:COUNT, a list 0,1,2 or "
         "one number; with --random LOW:HIGH. Gains without one stay as in the machine.",
