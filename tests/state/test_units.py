@@ -90,6 +90,23 @@ def test_everything_comes_back_exactly(path: Path) -> None:
     assert repr(after._replace(gains=())) == repr(before._replace(gains=()))
 
 
+def test_gain_sets_come_back_with_the_feedback_source_they_were_saved_under(path: Path) -> None:
+    fitted = "[options]\nani = true\n"
+    with running(path, fitted) as emulator:
+        unit = emulator.unit()
+        ask(unit, "SGP15,7:SGV2.5:SMPER900:SGSET2:SFB2,1:SGP40:SOFFS.125:SGSET5")
+        shown = [ask(unit, f"TSGSET{number}") for number in (2, 5)]
+        ask(unit, "SGENB5")
+        enabled = ask(unit, "TGAIN")
+    with running(path, fitted) as emulator:
+        unit = emulator.unit()
+        assert [ask(unit, f"TSGSET{number}") for number in (2, 5)] == shown
+        sources = {number: [saved.source for saved in axes] for number, axes in unit.controller.gain_sets.items()}
+        assert sources == {2: [1, 1], 5: [2, 1]}
+        ask(unit, "SFB2,1:SGENB5,5")
+        assert ask(unit, "TGAIN") == enabled
+
+
 def test_the_start_up_program_runs(path: Path) -> None:
     with running(path) as emulator:
         ask(emulator.unit(), "DEF BOOT:VAR1=VAR1+1:END:STARTP BOOT")
