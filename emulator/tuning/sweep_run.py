@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import time
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import replace
+from threading import Event, current_thread, main_thread
 
 from emulator.machine import Machine
 from emulator.tuning import SWEPT_GAINS
@@ -34,9 +36,16 @@ def run(parsed: argparse.Namespace) -> int:
     if parsed.out is not None and not parsed.out.parent.is_dir():
         raise ValueError(f"--out: there is no folder {parsed.out.parent}")
     began_s = time.monotonic()
-    with _executor(parsed) as executor:
+    with _executor(parsed) as executor, _interruptible() as interrupted:
         shown = _progress(began_s) if _progress_wanted(verbose=parsed.verbose) else None
-        result = sweep(plan, executor, progress=shown)
+
+        def tell(done: int, wanted: int) -> None:
+            if shown is not None:
+                shown(done, wanted)
+            if interrupted.is_set():
+                raise KeyboardInterrupt
+
+        result = sweep(plan, executor, progress=tell)
     if parsed.out is not None:
         write_table(parsed.out, result)
     _report(parsed, plan, result, time.monotonic() - began_s)
@@ -65,6 +74,28 @@ def _spans_of(parsed: argparse.Namespace) -> dict[str, Span]:
             raise ValueError(f"--vary {name} is given twice")
         spans[name] = parse_span(span)
     return spans
+
+
+@contextmanager
+def _interruptible() -> Iterator[Event]:
+    """The event is set by the first SIGINT, a second one interrupts at once.
+
+    An exception out of a signal may come up where Python swallows it (a callback of the executor), and be lost.
+    """
+    interrupted = Event()
+
+    def note(*_: object) -> None:
+        interrupted.set()
+        signal.signal(signal.SIGINT, previous)
+
+    previous = signal.getsignal(signal.SIGINT)
+    if current_thread() is main_thread():
+        signal.signal(signal.SIGINT, note)
+    try:
+        yield interrupted
+    finally:
+        if current_thread() is main_thread():
+            signal.signal(signal.SIGINT, previous)
 
 
 @contextmanager
