@@ -143,7 +143,7 @@ class Server:
     def _handle_signals(self, loop: asyncio.AbstractEventLoop) -> None:
         for name in ("SIGINT", "SIGTERM", "SIGHUP"):
             if hasattr(signal, name):
-                # The event loop of Windows has no signal handlers; there Ctrl-C ends the process.
+                # Meant: the event loop of Windows has no signal handlers; there Ctrl-C ends the process.
                 with contextlib.suppress(NotImplementedError):
                     loop.add_signal_handler(
                         getattr(signal, name), self._hang_up if name == "SIGHUP" else self._stop.set

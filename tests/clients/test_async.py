@@ -81,7 +81,7 @@ async def test_a_cancelled_wait_spoils_nothing() -> None:
     unit = FamilyUnit(values={"1TPE": "+5", "1TPC": "+6"})
     async with AsyncOEM6250(ThreadedLine(Slow(unit))) as ctl:
         asking = asyncio.ensure_future(ctl.query("1TPC"))
-        await asyncio.sleep(0.003)
+        await asyncio.sleep(0.003)  # until the wait to be cancelled has begun, in a thread on the wall clock
         asking.cancel()
         with pytest.raises(asyncio.CancelledError):
             await asking

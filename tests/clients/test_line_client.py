@@ -126,6 +126,7 @@ def test_nobody_listening_is_an_os_error() -> None:
         LineClient.open(f"tcp://127.0.0.1:{port}", timeout_s=0.5)
 
 
+# Meant: Windows has none, and the library is to be tested there too.
 @pytest.mark.skipif(not hasattr(os, "openpty"), reason="needs pseudo-terminals")
 def test_a_serial_port() -> None:
     ours, theirs = os.openpty()

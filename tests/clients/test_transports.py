@@ -29,6 +29,7 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 def url_of(served: Served, wire: str) -> str:
     if wire == "pty":
         if served.pty is None:
+            # Meant: Windows has none.
             pytest.skip("no pseudo-terminals here")
         return str(served.pty)
     kind = "telnet" if wire == "telnet" else "tcp"
@@ -157,6 +158,7 @@ def test_a_bad_url_is_refused(url: str) -> None:
         tcp_address(url)
 
 
+# Meant: Windows has none, and the library is to be tested there too.
 @pytest.mark.skipif(not hasattr(os, "openpty"), reason="needs pseudo-terminals")
 def test_a_pty_whose_unit_goes_away() -> None:
     import tty

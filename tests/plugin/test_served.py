@@ -17,6 +17,7 @@ from emulator.host_paced import CHARACTER_NS, HostPacedClock, TimetabledUnit
 from emulator.recording import replay
 from tests.ports.toy import ToyController
 
+# Meant: the server here is reached over a pseudo-terminal, which Windows lacks.
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="needs pseudo-terminals")
 MS = 1_000_000
 MOVE = b"D120000:GO1\r"
@@ -79,7 +80,7 @@ class TestWaitingHosts:
         watch = Stopwatch(server)
         host.ask(b"COMEXC1:" + MOVE, prompts=3)
         while host.moving():
-            time.sleep(0.05)
+            time.sleep(0.05)  # what is tested: hosts that poll with a sleep on the wall clock
         assert watch.virtual_s >= MOVE_S
         assert watch.wall_s < 5.0
 
@@ -99,7 +100,7 @@ class TestWaitingHosts:
             host.ask(b"COMEXC1:" + MOVE, prompts=3)
             while host.moving():
                 polls += 1
-                time.sleep(0.25)
+                time.sleep(0.25)  # virtual here: what is tested
         assert watch.virtual_s == pytest.approx(MOVE_S, abs=0.6)
         assert polls == pytest.approx(MOVE_S / 0.265, rel=0.1)
         assert watch.wall_s < 10.0

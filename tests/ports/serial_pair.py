@@ -13,6 +13,7 @@ import pytest
 
 from tests.ports.served import PATIENCE_S, wait_until
 
+# Meant: socat is a program of the system, not of the package index; `apt install socat` brings it.
 needs_socat = pytest.mark.skipif(shutil.which("socat") is None, reason="socat, which makes the cable, is missing")
 
 

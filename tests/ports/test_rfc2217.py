@@ -238,6 +238,7 @@ def test_nonsense_on_one_connection_leaves_it_and_the_others_alive(served: Serve
 
 def test_pyserial_is_not_loaded_for_others(tmp_path_factory: pytest.TempPathFactory) -> None:
     if sys.platform != "linux":
+        # Meant: what another process has loaded is only to be seen there.
         pytest.skip("looks into /proc")
     announce = tmp_path_factory.mktemp("lazy") / "announce"
     with Served("--tcp", "127.0.0.1:0", "--pty", "none", announce=announce) as served, served.connect() as host:

@@ -21,6 +21,7 @@ from tests.transcripts.transports import TelnetLine
 
 ANSWER = b"1TPE\r\n*1TPE+0\r\r\n> "
 """With the unit's echo, which is on when it powers up."""
+# Meant: telnet is a program of the system, not of the package index; `apt install telnet` brings it.
 needs_telnet = pytest.mark.skipif(
     not (shutil.which("telnet") and hasattr(os, "openpty")), reason="no telnet client here"
 )

@@ -60,6 +60,7 @@ def test_a_place_that_cannot_be_written(tmp_path: Path) -> None:
         Recorder(tmp_path / "none" / "a.rec", HEAD)
 
 
+# Meant: not every system has one.
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
 def test_a_full_disk_is_told_at_the_start() -> None:
     with pytest.raises(RecordingError, match="No space left"):
@@ -98,6 +99,7 @@ def test_a_disk_that_fills_up_ends_the_recording_with_one_warning(
     assert recording.entries == tuple(Received(number, 0, 0, b"1TPE\r") for number in range(len(recording.entries)))
 
 
+# Meant: not every system has one.
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
 def test_a_disk_that_stands_still_never_holds_up_who_records(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture

@@ -114,6 +114,7 @@ def test_a_session_with_a_stored_memory_replays(tmp_path: Path) -> None:
     same(tmp_path / "b.rec")
 
 
+# Meant: Windows has no such signal.
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="no SIGHUP")
 def test_a_machine_file_read_again_replays(tmp_path: Path) -> None:
     with serve(tmp_path) as served:

@@ -135,6 +135,7 @@ class RealSession:
                 case Send():
                     self._client.write(step.data)
                 case Pass():
+                    # Real ports, real time: the server paces itself by the wall clock.
                     time.sleep(step.seconds / self._speed)
                 case Expect() | Match():
                     self._expect(step)
