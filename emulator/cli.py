@@ -35,6 +35,7 @@ LATER: Mapping[str, tuple[str, str, str]] = {
     "replay": ("emulator.recording.commands", "add_replay", "run a recording again and compare what the unit sends"),
     "transcript": ("emulator.recording.commands", "add_transcript", "turn a recording into a test transcript"),
     "state": ("emulator.state.command", "add_state", "look at and change a file of non-volatile memory"),
+    "terminal": ("clients.terminal.command", "add_terminal", "talk to a controller, emulated or physical, by hand"),
     "faults": ("emulator.fault_listing", "add_faults", "what can be made to go wrong, in tests and from Python"),
 }
 """Commands whose options are only read in when one of them is asked for: module, function that adds them, sentence."""
