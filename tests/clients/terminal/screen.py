@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import fcntl
 import os
-import re
 import select
 import struct
 import subprocess
@@ -14,27 +13,31 @@ import time
 from pathlib import Path
 from types import TracebackType
 
+import pyte
+
 REPOSITORY = Path(__file__).resolve().parents[3]
-PATIENCE_S = 20.0
+PATIENCE_S = 15.0
 ROWS, COLUMNS = 40, 160
 
-_CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\x1b[=>()][A-Z0-9]?|\r")
+WHERE_IS_THE_CURSOR = b"\x1b[6n"
 
 
 class Screen:
-    """The program's terminal; `shown` is all it has written, without what only moves the cursor."""
+    """The program's terminal, as a person would see it; lines that were scrolled away still count."""
 
     def __init__(self, *arguments: str, history: Path, program: tuple[str, ...] = ("-m", "clients")) -> None:
         ours, theirs = os.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, COLUMNS, 0, 0))
         command = [sys.executable, *program, *arguments, "--history", str(history)]
-        environment = {**os.environ, "TERM": "xterm", "PROMPT_TOOLKIT_NO_CPR": "1"}
+        environment = {**os.environ, "TERM": "xterm"}
         self.process = subprocess.Popen(
             command, stdin=theirs, stdout=theirs, stderr=theirs, cwd=REPOSITORY, env=environment, start_new_session=True
         )
         os.close(theirs)
         self._ours = ours
-        self._written = b""
+        self._screen = pyte.HistoryScreen(COLUMNS, ROWS, history=2000)
+        self._stream = pyte.ByteStream(self._screen)
+        self._before = ""
 
     def __enter__(self) -> Screen:
         return self
@@ -47,17 +50,19 @@ class Screen:
 
     @property
     def shown(self) -> str:
-        return _CONTROL.sub("", self._written.decode("utf-8", "replace"))
+        """What is on the screen, and what was."""
+        gone = ["".join(line[column].data for column in range(COLUMNS)) for line in self._screen.history.top]
+        return "\n".join(line.rstrip() for line in [*gone, *self._screen.display]).rstrip()
 
     def type(self, keys: str) -> None:
         """Press keys."""
-        self._written = b""
+        self._before = self.shown
         os.write(self._ours, keys.encode())
 
     def wait_for(self, text: str) -> str:
         """Read until a text is on the screen that was not there before the last keys; AssertionError if it never is."""
         deadline = time.monotonic() + PATIENCE_S
-        while text not in self.shown:
+        while self.shown.count(text) <= self._before.count(text):
             left = deadline - time.monotonic()
             assert left > 0, f"{text!r} never came; there is: {self.shown}"
             assert self._read(left), f"{text!r} never came before the program ended; there is: {self.shown}"
@@ -70,8 +75,9 @@ class Screen:
 
     def ended(self) -> int:
         """Its exit status, when it has ended by itself."""
-        while self._read(PATIENCE_S):
-            pass
+        deadline = time.monotonic() + PATIENCE_S
+        while self._read(0.1):
+            assert time.monotonic() < deadline, f"it goes on; there is: {self.shown}"
         return self.process.wait(PATIENCE_S)
 
     def _read(self, timeout_s: float) -> bool:
@@ -82,5 +88,7 @@ class Screen:
             data = os.read(self._ours, 65536)
         except OSError:
             return False
-        self._written += data
+        self._stream.feed(data)
+        for _ in range(data.count(WHERE_IS_THE_CURSOR)):
+            os.write(self._ours, b"\x1b[%d;%dR" % (self._screen.cursor.y + 1, self._screen.cursor.x + 1))
         return bool(data)
