@@ -141,6 +141,9 @@ class Console:
             await self._own.carry_out(line)
 
     async def _type(self, line: str) -> None:
+        if not self._conversation.connected:
+            self.show([Shown("not connected: nothing was sent", "error")])
+            return
         try:
             await self._conversation.type_line(line)
         except (LineLost, ValueError) as error:

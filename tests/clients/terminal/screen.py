@@ -19,6 +19,12 @@ REPOSITORY = Path(__file__).resolve().parents[3]
 PATIENCE_S = 15.0
 ROWS, COLUMNS = 40, 160
 
+BE_ITS_TERMINAL = (
+    "import fcntl, os, sys, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0); "
+    "os.execv(sys.executable, [sys.executable, *sys.argv[1:]])"
+)
+"""Only a controlling terminal turns Ctrl-C into a signal while the program is not reading keys."""
+
 WHERE_IS_THE_CURSOR = b"\x1b[6n"
 
 
@@ -28,7 +34,7 @@ class Screen:
     def __init__(self, *arguments: str, history: Path, program: tuple[str, ...] = ("-m", "clients")) -> None:
         ours, theirs = os.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, COLUMNS, 0, 0))
-        command = [sys.executable, *program, *arguments, "--history", str(history)]
+        command = [sys.executable, "-c", BE_ITS_TERMINAL, *program, *arguments, "--history", str(history)]
         environment = {**os.environ, "TERM": "xterm"}
         self.process = subprocess.Popen(
             command, stdin=theirs, stdout=theirs, stderr=theirs, cwd=REPOSITORY, env=environment, start_new_session=True
