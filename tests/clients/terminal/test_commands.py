@@ -133,7 +133,7 @@ async def test_the_terminal_follows_a_change_of_the_framing(session: Session) ->
     for line in ("ERRLVL1", "EOT10,0,0", "ECHO0", "ERRLVL4"):
         before = len(session.lines)
         await session.conversation.type_line(line)
-        await session.until(lambda: any("the unit has" in each.text for each in session.lines[before:]))
+        await session.until(lambda start=before: any("the unit has" in each.text for each in session.lines[start:]))
     assert "ERRLVL4, ECHO0, and ends a reply with 10" in session.texts("own")[-1]
     await session.enter("1TPE", "*1TPE+0")
     assert not session.texts("error")
