@@ -28,7 +28,7 @@ TAIL_LINES = 40
 
 MARKER = (
     "oem6250(machine=None, units=1, chain=1, speed='waiting', names={}, quiet_ms=5): the emulated unit of this test: "
-    "a Machine, a machine file's text or path; units side by side (oem6250) or chained on one line (oem6250_server); "
+    "a Machine, a machine file's text or path; units side by side (oem6250 alone) or chain on one line; "
     "how time passes behind ports: 'waiting', 'max' or N; names for inputs and outputs; see docs/testing.md"
 )
 _KNOWN = frozenset({"machine", "units", "chain", "speed", "names", "quiet_ms", "process"})
@@ -81,7 +81,8 @@ def oem6250(request: pytest.FixtureRequest, oem6250_machine: Any) -> Iterator[Em
 
     wishes = _wishes(request)
     machine = wishes.get("machine", oem6250_machine)
-    with Emulated(machine, units=wishes.get("units", 1), names=wishes.get("names")) as emu:
+    units, chain = wishes.get("units", 1), wishes.get("chain", 1)
+    with Emulated(machine, units=units, chain=chain, names=wishes.get("names")) as emu:
         _remember(request, emu)
         yield emu
 

@@ -7,6 +7,7 @@ while one waits for its move the others use the line.
 
 import asyncio
 import sys
+from typing import Any
 
 from clients import AsyncOEM6250, ErrorFlags
 
@@ -59,7 +60,8 @@ async def run(url: str) -> None:
         await prepare(ctl)
         watching = asyncio.create_task(supervise(ctl))
         working = asyncio.gather(*(shuttle(ctl, number) for number in STATIONS))
-        await asyncio.wait([watching, working], return_when=asyncio.FIRST_COMPLETED)
+        both: list[asyncio.Future[Any]] = [watching, working]
+        await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
         # A move that was killed may be noticed by its own task first; the supervisor knows why.
         if working.done() and working.exception() is not None:
             await asyncio.wait([watching], timeout=5 * POLL_S)

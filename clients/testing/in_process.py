@@ -6,12 +6,14 @@ Time stands still except inside ``advance``, ``run_until``, ``settle`` and whate
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import asyncio
+from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from clients.testing.chained import ChainedEmulator, ChainEnd, EmulatorLike
 from clients.testing.errors import NotReached
 from clients.testing.machines import machine_of
 from clients.testing.traffic import Traffic
@@ -22,7 +24,7 @@ from emulator.emulator import NS_PER_S, Emulator, Unit
 from emulator.parameters import Value
 
 if TYPE_CHECKING:
-    from clients import OEM6250
+    from clients import OEM6250, AsyncOEM6250
     from clients.testing.trace import Trace
     from emulator.controller import Controller
     from emulator.machine import Machine
@@ -38,7 +40,7 @@ LONGEST_S = 86_400.0
 class _Bench:
     """A unit in this process: nothing else works on it between two calls."""
 
-    def __init__(self, unit: Unit, emulator: Emulator) -> None:
+    def __init__(self, unit: Unit, emulator: EmulatorLike) -> None:
         self._unit = unit
         self._emulator = emulator
         self.controller = unit.controller
@@ -73,16 +75,37 @@ class EmulatedUnit(UnitControl):
     def client(self) -> OEM6250:
         """A client connected to the unit, made when it is first asked for."""
         if self._client is None:
-            from clients import OEM6250
-
-            self._client = OEM6250(self.line())
+            self._client = self._connect()
         return self._client
+
+    def async_client(self) -> AsyncOEM6250:
+        """A new asyncio client, for `async with`. In a host started with `run` it waits in virtual time as that whole
+        event loop does; in any other loop time passes while it reads."""
+        from clients import AsyncOEM6250
+        from clients.async_lines import DirectLine
+        from clients.testing.virtual_loop import AsyncVirtualLine, VirtualLoop
+
+        virtual = isinstance(asyncio.get_running_loop(), VirtualLoop)
+        line = AsyncVirtualLine(self.line()) if virtual else DirectLine(self.line())
+        return AsyncOEM6250(line) if self._owner.chain is None else AsyncOEM6250(line, address=self._index + 1)
+
+    def _connect(self) -> OEM6250:
+        from clients import OEM6250
+
+        if self._owner.chain is None:
+            return OEM6250(self.line())
+        if self._index:
+            return self._owner.client.unit(self._index + 1)
+        return OEM6250(self.line(), address=1)
 
     def line(self) -> VirtualLine:
         """A new connection to the unit, for a client of your own; all of them are on the one serial port."""
+        if self._owner.chain is not None and self._index:
+            return self._owner.line()
+        end = self._owner.chain or self.unit
         number = len(self._lines)
         step = partial(self._owner.step, unit=self._index)
-        self._lines.append(VirtualLine(self.unit, step, channel=number, name=f"emulated unit {self._index}"))
+        self._lines.append(VirtualLine(end, step, channel=number, name=f"emulated unit {self._index}"))
         return self._lines[-1]
 
 
@@ -92,6 +115,7 @@ class Emulated:
     Args:
         machine: a Machine, the text of a machine file or the path of one; None is the default machine.
         units: like units side by side, each with a line of its own.
+        chain: like units on one line, a daisy chain, addressed 1, 2, 3 ...; ERRLVL1 in the machine's defaults first.
         names: names of your own for inputs and outputs: ``{"start": "input.3", "lamp": "output.2"}``.
     """
 
@@ -100,20 +124,22 @@ class Emulated:
         machine: Machine | str | Path | Sequence[Machine | str | Path] | None = None,
         *,
         units: int = 1,
+        chain: int = 1,
         names: Mapping[str, str] | None = None,
     ) -> None:
+        if units > 1 and chain > 1:
+            raise ValueError("units stand side by side or on one line: give units or chain, not both")
         machines = _machines(machine, units)
-        self.emulator = Emulator(machines)
-        self.traffic = Traffic(machines, collect=self._collect, now_ns=lambda: self.now_ns)
-        self._recorded: list[RecordedUnit] = [
-            unit.record(self.traffic, unit=index) for index, unit in enumerate(self.emulator.units)
-        ]
-        self.units = [EmulatedUnit(self, index, names or {}) for index in range(len(machines))]
+        self.traffic = Traffic(machines[:1] if chain > 1 else machines, collect=self._collect,
+                               now_ns=lambda: self.now_ns, chain=chain)  # fmt: skip
+        self.emulator, self.chain, self._recorded = _begin(machines, chain, self.traffic)
+        self.units = [EmulatedUnit(self, index, names or {}) for index in range(len(self.emulator.units))]
         self._watches: list[Callable[[], None]] = []
         first = self.units[0]
         self.signals, self.inputs, self.outputs = first.signals, first.inputs, first.outputs
         self.update_transcripts = False
         self.do, self.line, self.faults = first.do, first.line, first.faults
+        self.async_client = first.async_client
 
     def __enter__(self) -> Emulated:
         return self
@@ -191,6 +217,13 @@ class Emulated:
         self.emulator.advance_to_event(until_ns, unit=unit)
         for look in self._watches:
             look()
+
+    def run(self, host: Coroutine[Any, Any, T]) -> T:
+        """Run an asyncio host in an event loop on virtual time, in which `asyncio.sleep` and time-outs are virtual too;
+        its result. Its clients are `async_client()`s."""
+        from clients.testing.virtual_loop import run_virtually
+
+        return run_virtually(host, now_ns=lambda: self.now_ns, step=self._step_for_all)
 
     # Claims
 
@@ -276,6 +309,12 @@ class Emulated:
             self.step(at_ns)
         self.emulator.advance_to(at_ns)
 
+    def _step_for_all(self, until_ns: int) -> None:
+        """Several units: one of them may say something before the next thing happens in another."""
+        if len(self.units) > 1:
+            until_ns = min(until_ns, self.units[0].controller.engine.next_system_update_ns)
+        self.step(until_ns)
+
     def _go_on(self, end_ns: int) -> None:
         """While something is under way events tell of its end; after that only looking does."""
         busy = next((index for index, unit in enumerate(self.units) if unit.controller.busy), None)
@@ -289,10 +328,25 @@ def emulated(
     machine: Machine | str | Path | Sequence[Machine | str | Path] | None = None,
     *,
     units: int = 1,
+    chain: int = 1,
     names: Mapping[str, str] | None = None,
 ) -> Emulated:
     """An emulator in this process, as a context manager; the arguments are those of Emulated."""
-    return Emulated(machine, units=units, names=names)
+    return Emulated(machine, units=units, chain=chain, names=names)
+
+
+def _begin(
+    machines: Sequence[Machine], chain: int, traffic: Traffic
+) -> tuple[EmulatorLike, ChainEnd | None, list[RecordedUnit]]:
+    """The units, the end of their line if they share one, and where what they say is written down."""
+    if chain == 1:
+        emulator = Emulator(machines)
+        return emulator, None, [unit.record(traffic, unit=index) for index, unit in enumerate(emulator.units)]
+    if len(machines) > 1:
+        raise ValueError("the units of a chain are alike: give one machine")
+    chained = ChainedEmulator(machines[0], chain)
+    end = ChainEnd(chained.chain, traffic)
+    return chained, end, [end.recorded]
 
 
 def _machines(machine: Machine | str | Path | Sequence[Machine | str | Path] | None, units: int) -> list[Machine]:

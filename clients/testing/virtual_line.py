@@ -7,24 +7,36 @@ time-outs run on the same clock.  Time stands still while the host computes.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from emulator.emulator import Unit
+from typing import Protocol
 
 NS_PER_S = 1_000_000_000
+
+
+class _Clocked(Protocol):
+    @property
+    def now_ns(self) -> int: ...
+
+
+class LineEnd(Protocol):
+    """The host's end of a unit's or a chain's line."""
+
+    @property
+    def controller(self) -> _Clocked: ...
+    def send(self, data: bytes, *, channel: int = 0) -> None: ...
+    def read(self, *, channel: int = 0) -> bytes: ...
+    def hang_up(self, *, channel: int = 0) -> None: ...
 
 
 class VirtualLine:
     """One connection to a unit; a ``clients.lines.Line``.
 
     Args:
-        unit: the unit at its other end.
+        unit: the unit or the chain at its other end.
         step: lets virtual time pass up to the next thing that happens in the unit, at most to a moment (ns).
         channel: the number of the connection.
     """
 
-    def __init__(self, unit: Unit, step: Callable[[int], None], *, channel: int = 0, name: str = "emulated") -> None:
+    def __init__(self, unit: LineEnd, step: Callable[[int], None], *, channel: int = 0, name: str = "emulated") -> None:
         self._unit = unit
         self._step = step
         self._channel = channel
