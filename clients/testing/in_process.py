@@ -134,6 +134,7 @@ class Emulated:
                                now_ns=lambda: self.now_ns, chain=chain)  # fmt: skip
         self.emulator, self.chain, self._recorded = _begin(machines, chain, self.traffic)
         self.units = [EmulatedUnit(self, index, names or {}) for index in range(len(self.emulator.units))]
+        self._traces: dict[int, Trace] = {}
         self._watches: list[Callable[[], None]] = []
         first = self.units[0]
         self.signals, self.inputs, self.outputs = first.signals, first.inputs, first.outputs
@@ -234,11 +235,14 @@ class Emulated:
             name: of the registry without the axis, blanks for dots: ``position error``, ``dac``, ``velocity true``.
             axis: 1 or 2; None for a signal of the unit.
             seconds: of the recording; None records until the memory for it is full.
-            unit: the unit by its place. A unit has one scope: the next trace ends this one.
+            unit: the unit by its place. A unit has one scope: the next trace ends this one, which keeps what it has.
         """
         from clients.testing.trace import begin_trace
 
-        return begin_trace(self.units[unit].unit, name, axis=axis, seconds=seconds)
+        if unit in self._traces:
+            self._traces[unit].end()
+        self._traces[unit] = begin_trace(self.units[unit].unit, name, axis=axis, seconds=seconds)
+        return self._traces[unit]
 
     def assert_no_motion(
         self, seconds: float, *, axis: int | None = None, tolerance_counts: int = AT_REST_COUNTS

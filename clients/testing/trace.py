@@ -11,11 +11,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-
-from emulator.emulator import Unit
+import numpy.typing as npt
+from numpy.lib.mixins import NDArrayOperatorsMixin
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
+    from emulator.emulator import Unit
+    from emulator.scope import UnitScope
 
 ALIASES = {
     "commanded position": "position.commanded",
@@ -34,28 +35,48 @@ def signal_name(name: str, axis: int | None) -> str:
     return plain if axis is None else f"axis{axis}.{plain}"
 
 
-class Trace:
+class Trace(NDArrayOperatorsMixin):
     """One signal being recorded; ``values`` and ``time_s`` are what there is of it up to now.
 
-    It is an array to numpy: ``np.max(trace)``, ``trace[-1]``.
+    It is an array wherever one is wanted: ``np.max(trace)``, ``abs(trace) < 50``, ``trace[-1]``, ``trace.max()``.
     """
 
-    def __init__(self, scope: Any, name: str) -> None:
+    def __init__(self, scope: UnitScope, name: str) -> None:
         self._scope = scope
+        self._ended: tuple[npt.NDArray[Any], npt.NDArray[np.float64]] | None = None
         self.name = name
 
     @property
     def values(self) -> npt.NDArray[Any]:
         """The signal in its unit, one value a servo sample."""
-        return np.asarray(self._scope.read()[self.name])
+        return self._read()[0]
 
     @property
     def time_s(self) -> npt.NDArray[np.float64]:
         """The virtual time of each value."""
-        return np.asarray(self._scope.read().time_s)
+        return self._read()[1]
+
+    def end(self) -> None:
+        """Keep what there is; the scope is wanted for something else."""
+        self._ended = self._read()
+
+    def _read(self) -> tuple[npt.NDArray[Any], npt.NDArray[np.float64]]:
+        if self._ended is not None:
+            return self._ended
+        recording = self._scope.read()
+        return np.asarray(recording[self.name]), np.asarray(recording.time_s)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
         return np.array(self.values, dtype=dtype)
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
+        arrays = [each.values if isinstance(each, Trace) else each for each in inputs]
+        return getattr(ufunc, method)(*arrays, **options)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self.values, name)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -68,10 +89,8 @@ def begin_trace(unit: Unit, name: str, *, axis: int | None, seconds: float | Non
     """Begin to record a signal.
 
     Raises:
-        AttributeError: this emulator has no scope.
-        ValueError: the signal cannot be recorded.
+        ScopeError (a ValueError): the signal cannot be recorded.
     """
     full = signal_name(name, axis)
-    scope: Any = getattr(unit, "scope")  # noqa: B009 - not every emulator has one, and the type checker cannot know
-    scope.record([full], seconds=seconds)
-    return Trace(scope, full)
+    unit.scope.record([full], seconds=seconds)
+    return Trace(unit.scope, full)

@@ -11,6 +11,9 @@ from typing import Protocol
 
 NS_PER_S = 1_000_000_000
 
+LEAST_WAIT_NS = 1
+"""A wait too short for the clock still lets time pass, or a host that waits for what is left of a moment never ends."""
+
 
 class _Clocked(Protocol):
     @property
@@ -52,7 +55,7 @@ class VirtualLine:
         """What the unit has said; lets virtual time pass until it says something, at most so long."""
         self._check()
         controller = self._unit.controller
-        until_ns = controller.now_ns + round(max(0.0, timeout_s) * NS_PER_S)
+        until_ns = controller.now_ns + (max(LEAST_WAIT_NS, round(timeout_s * NS_PER_S)) if timeout_s > 0 else 0)
         data = self._unit.read(channel=self._channel)
         while not data and controller.now_ns < until_ns:
             self._step(until_ns)

@@ -34,6 +34,30 @@ def run(pytester: pytest.Pytester, source: str, *options: str) -> pytest.RunResu
 
 
 class TestFixtures:
+    def test_a_chain_and_an_asyncio_host(self, pytester: pytest.Pytester) -> None:
+        result = run(
+            pytester,
+            """
+            import asyncio
+            import pytest
+
+            @pytest.mark.oem6250(chain=3, machine="[defaults]\\nERRLVL = 1")
+            def test_chain(oem6250):
+                oem6250.units[2].client.axis[1].velocity = 7
+                assert [unit.client.axis[1].velocity for unit in oem6250.units] == [1, 1, 7]
+
+            def test_asyncio(oem6250):
+                async def host():
+                    async with oem6250.async_client() as ctl:
+                        await ctl.axis[1].set_drive_enabled(True)
+                        await ctl.axis[1].move_to(4000)
+                        await asyncio.sleep(30)
+                oem6250.run(host())
+                assert oem6250.time_s > 31
+            """,
+        )
+        result.assert_outcomes(passed=2)
+
     def test_oem6250(self, pytester: pytest.Pytester) -> None:
         result = run(
             pytester,
