@@ -14,7 +14,7 @@ import struct
 import time
 import warnings
 from collections.abc import Callable
-from typing import Final, Protocol, runtime_checkable
+from typing import Any, Final, Protocol, runtime_checkable
 
 from clients.errors import LineLost
 
@@ -142,7 +142,7 @@ class SerialLine(_RealLine):
         return first + rest
 
     def close(self) -> None:
-        self._port.close()
+        _close_port(self._port)
 
 
 class Rfc2217Line(_RealLine):
@@ -174,7 +174,15 @@ class Rfc2217Line(_RealLine):
         return data
 
     def close(self) -> None:
-        self._port.close()
+        _close_port(self._port)
+
+
+def _close_port(port: Any) -> None:
+    """Close a port of pyserial's, whose network ports leave their socket open when the other side has gone."""
+    connection = getattr(port, "_socket", None)
+    port.close()
+    if connection is not None:
+        connection.close()
 
 
 def open_line(url: str, *, baud: int = DEFAULT_BAUD) -> Line:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import socket
 import threading
+import time
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -81,6 +84,67 @@ def test_every_wire(served: Served, wire: str, setting: str) -> None:
             assert ctl.changed == ()
     finally:
         tell(served, "ECHO1:ERRLVL4:EOT13,0,0")
+
+
+EOTS = ("13,0,0", "13,10,0", "10,0,0", "0,0,0", "3,0,0")
+
+
+def in_default_run(wire: str, level: int, echo: int, eot: str) -> bool:
+    """Each level, echo and EOT once on each wire; the whole product with --runslow."""
+    place = WIRES.index(wire) + level
+    return echo == place % 2 and eot == EOTS[place % len(EOTS)]
+
+
+FRAMINGS = [
+    pytest.param(*case, marks=() if in_default_run(*case) else pytest.mark.slow, id="-".join(map(str, case)))
+    for case in itertools.product(WIRES, range(5), (0, 1), EOTS)
+    if (case[0], case[3]) != ("telnet", "10,0,0")
+]
+
+
+@pytest.mark.parametrize(("wire", "level", "echo", "eot"), FRAMINGS)
+def test_every_wire_at_every_level_echo_and_eot(served: Served, wire: str, level: int, echo: int, eot: str) -> None:
+    tell(served, f"ECHO{echo}:EOT{eot}:ERRLVL{level}")
+    try:
+        with OEM6250.open(url_of(served, wire)) as ctl:
+            link = ctl.session.link
+            assert (link.level, link.echo) == (level, bool(echo))
+            ctl.axis[2].velocity = 2.5
+            assert ctl.axis[2].velocity == 2.5
+            assert not ctl.status.axis(2).moving
+            assert ctl.query("!2TAS.1") == "0"
+            ctl.vars[3] = "part *7"
+            assert ctl.vars[3] == "part *7"
+            if (
+                level >= 2
+            ):  # below that the reason has to be asked for, which takes its time; tests/clients/test_emulated.py
+                with pytest.raises(UnitError) as refusal:
+                    ctl.send("!TPROG NONE")
+                assert refusal.value.command == "!TPROG NONE"
+            assert ctl.axis[2].position == pytest.approx(0, abs=50)
+            assert ctl.changed == ()
+    finally:
+        tell(served, "ECHO1:ERRLVL4:EOT13,0,0")
+
+
+@pytest.mark.parametrize("wire", ["tcp", "socket", "rfc2217", "pty"])
+def test_a_disconnect_during_a_move(tmp_path: Path, wire: str) -> None:
+    pty = ["--pty", str(tmp_path / "tty")] if hasattr(os, "openpty") else ["--pty", "none"]
+    with Served("--tcp", "127.0.0.1:0", *pty, announce=tmp_path / "announce", command=COMMAND) as server:
+        ctl = OEM6250.open(url_of(server, wire))
+        axis = ctl.axis[1]
+        axis.drive_enabled = True
+        axis.move_to(400_000, wait=False)
+        cut = threading.Timer(0.2, server.process.kill)
+        cut.start()
+        began = time.monotonic()
+        with pytest.raises(LineLost, match="the unit goes on with whatever it was doing, a move included"):
+            axis.wait_until_settled(timeout_s=30)
+        assert time.monotonic() - began < 10
+        with pytest.raises(LineLost):
+            axis.stop()
+        ctl.close()
+        cut.join()
 
 
 @pytest.mark.parametrize("wire", ["tcp", "pty", "rfc2217"])
