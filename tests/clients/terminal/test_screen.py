@@ -149,3 +149,12 @@ def test_without_a_screen_or_without_the_extra_it_says_what_is_missing(history: 
     with Screen("x", history=history, program=("-c", hiding)) as screen:
         assert screen.ended() == 2
         assert screen.shown.strip().endswith("the terminal needs prompt_toolkit: pip install 'oem6250[terminal]'")
+
+
+def test_the_terminal_never_imports_the_emulator() -> None:
+    code = (
+        "import sys, clients.terminal.console, clients.terminal.command; "
+        "print([m for m in sys.modules if m.split('.')[0] in ('emulator', 'numpy', 'numba')])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=REPOSITORY, check=True)
+    assert done.stdout.strip() == "[]"
