@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final, get_args
 
 from clients import programs
-from clients.effects import Procedure, Send
+from clients.effects import Procedure
 from clients.errors import ClientError
 from clients.motion import axis_status
 from clients.session import Session
@@ -224,8 +224,7 @@ def upload_twice(session: Session, name: str) -> Procedure[list[str]]:
 
 
 def abandon(session: Session, name: str) -> Procedure[None]:
-    """After a download was broken off: kill first, then end the definition and delete the half program."""
-    yield Send(b"!K\r")
+    """After a download was broken off: end the definition and delete the half program."""
     yield from session.synchronise()
     if session.defining:
         yield from session.command("END")

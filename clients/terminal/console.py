@@ -156,8 +156,6 @@ class Console:
         self._soon(self._kill())
 
     async def _kill(self) -> None:
-        if self._transfer is not None:
-            await asyncio.wait([self._transfer])
         try:
             sent = await self._conversation.kill()
         except LineLost:

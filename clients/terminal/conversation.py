@@ -174,14 +174,22 @@ class Conversation:
             self.session.owed += [line] * count
 
     async def kill(self) -> bool:
-        """Send !K at once, after whatever line is being sent; False without a port.
+        """Send !K at once, into the middle of whatever procedure has the line; False without a port.
 
         Raises:
             LineLost.
         """
         if not self.connected:
             return False
-        await self.type_line("!K")
+        line = self._require().line
+        self._incoming.sent("!K")
+        self.session.wire.in_doubt = self._ask
+        if self.session.link.prompting:
+            self.session.owed.append("!K")
+        try:
+            await line.write(b"!K\r")
+        except OSError as error:
+            raise LineLost(line.name, error) from error
         return True
 
     async def carry_out(self, procedure: Procedure[T]) -> T:

@@ -149,6 +149,31 @@ async def test_a_unit_in_the_middle_of_a_definition_is_told(server: Served) -> N
     await conversation.close()
 
 
+async def test_a_kill_does_not_wait_for_a_procedure_that_waits() -> None:
+    received = bytearray()
+
+    async def swallow(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        while data := await reader.read(1000):
+            received.extend(data)
+        writer.close()
+
+    async with await asyncio.start_server(swallow, "127.0.0.1", 0) as silent:
+        port = silent.sockets[0].getsockname()[1]
+        conversation = Conversation(f"tcp://127.0.0.1:{port}", show=lambda lines: None, ask=False)
+        await conversation.open()
+        asking = asyncio.create_task(conversation.find_out())
+        async with asyncio.timeout(PATIENCE_S):
+            while b"!ERRLVL" not in received:
+                await asyncio.sleep(0.005)
+            assert await conversation.kill()
+            while b"!K\r" not in received:
+                await asyncio.sleep(0.005)
+        assert not asking.done()
+        await asking
+        await conversation.close()
+        assert not await conversation.kill()
+
+
 async def test_raw_says_nothing_by_itself(server: Served) -> None:
     conversation = Conversation(server.tcp_url, show=lambda lines: None, ask=False)
     await conversation.open()
