@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import pytest
 
 from clients.testing import Served
 from emulator.engine.machine_code import CACHE_VARIABLE, cache_path
+from tests.ports.served import wait_until
 
 REPOSITORY = Path(__file__).parents[2]
 EXAMPLES = REPOSITORY / "examples"
@@ -79,11 +81,19 @@ def test_two_axes(server: Served) -> None:
     assert done.stdout.count("axis 2 is at") == 6
 
 
-def test_two_axes_are_stopped_by_the_supervisor(server: Served) -> None:
-    server.faults.enable_open().at(1.0)
-    done = run(str(EXAMPLES / "two_axes.py"), server.tcp_url)
-    assert (done.returncode, done.stdout.splitlines()[-1]) == (1, "stopped: enable input open"), done.stderr
-    assert not server.signals["axis1.moving"]
+def test_two_axes_are_stopped_by_the_supervisor() -> None:
+    with Served(speed=1) as server:
+        opened = threading.Thread(target=open_enable_in_motion, args=(server,))
+        opened.start()
+        done = run(str(EXAMPLES / "two_axes.py"), server.tcp_url)
+        opened.join()
+        assert (done.returncode, done.stdout.splitlines()[-1:]) == (1, ["stopped: enable input open"]), done.stderr
+        assert not server.signals["axis1.moving"]
+
+
+def open_enable_in_motion(server: Served) -> None:
+    wait_until(lambda: bool(server.signals["axis1.moving"]))
+    server.faults.enable_open().apply()
 
 
 PYTEST = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "clients.pytest_plugin", str(EXAMPLES / "host_tests"))
