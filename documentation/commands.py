@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from typing import Final
 
 from documentation.markdown import anchor, code, page, plain, table
@@ -68,7 +69,7 @@ FIELD_TYPES: Final = {
 def pages() -> dict[str, str]:
     """File name -> text of the pages of all groups."""
     drawn = refusals()
-    shown = conformance_table()
+    shown = _rows()
     return {
         f"commands-{group.replace('_', '-')}.md": _group_page(
             heading, [each for each in shown if _group_of(each.row) == group], drawn
@@ -79,11 +80,16 @@ def pages() -> dict[str, str]:
 
 def index(names: Sequence[str]) -> str:
     """The page before the groups: how an entry reads, and every name with what it is."""
-    listed = sorted((each for each in conformance_table() if each.row.name.isalpha()), key=lambda each: each.row.name)
+    listed = sorted((each for each in _rows() if each.row.name.isalpha()), key=lambda each: each.row.name)
     rows = [(f"[{each.row.name}](#{label(each.row)})", plain(each.row.title), each.state) for each in listed]
     toctree = "\n".join(name.removesuffix(".md") for name in names)
     return page("Commands", _INTRODUCTION, f"```{{toctree}}\n:maxdepth: 1\n\n{toctree}\n```", "## By name",
         table(("name", "what", "this emulator"), rows))  # fmt: skip
+
+
+@cache
+def _rows() -> Sequence[Conformance]:
+    return conformance_table()
 
 
 _INTRODUCTION: Final = """\

@@ -32,13 +32,12 @@ def refusals(folder: Path = TRANSCRIPTS) -> Mapping[str, Sequence[str]]:
 
 
 def _of_transcript(text: str) -> Iterator[tuple[str, str]]:
-    command = ""
+    sent = ""
     for line in text.splitlines():
         if line.startswith(_SENT):
-            command = _only_command(line.removeprefix(_SENT))
-        elif command and line.startswith(_ANSWERED):
-            for error in _errors_in(line):
-                yield command, error
+            sent = line.removeprefix(_SENT)
+        elif line.startswith(_ANSWERED) and (errors := list(_errors_in(line))) and (command := _only_command(sent)):
+            yield from ((command, error) for error in errors)
 
 
 def _only_command(line: str) -> str:
@@ -48,14 +47,14 @@ def _only_command(line: str) -> str:
 
 
 def _errors_in(line: str) -> Iterator[str]:
-    stems = _stems()
-    said = line.replace("\\", "")
-    for found in re.finditer(r"\*(" + "|".join(map(re.escape, stems)) + ")", said):
+    stems, pattern = _stems()
+    for found in pattern.finditer(line.replace("\\", "")):
         yield stems[found[1]]
 
 
 @cache
-def _stems() -> Mapping[str, str]:
-    """Error text without the number at its end -> the text, the longest first, since some begin like others."""
+def _stems() -> tuple[Mapping[str, str], re.Pattern[str]]:
+    """Error text without the number at its end -> the text, and what finds one; the longest first, some begin alike."""
     stems = {_NUMBER.sub("", row.text): row.text for row in catalogue.error_rows()}
-    return {stem: stems[stem] for stem in sorted(stems, key=len, reverse=True)}
+    longest_first = sorted(stems, key=len, reverse=True)
+    return stems, re.compile(r"\*(" + "|".join(map(re.escape, longest_first)) + ")")

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from typing import Final
 
@@ -21,7 +22,8 @@ REFERENCE: Final = "reference"
 """The folder of the generated pages, beside the written ones."""
 
 
-def generated_pages() -> dict[str, str]:
+@cache
+def generated_pages() -> Mapping[str, str]:
     """File name -> text of every page of the reference folder."""
     groups = commands.pages()
     return {

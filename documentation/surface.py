@@ -27,7 +27,7 @@ def reference() -> str:
             [
                 (code(each.name), plain(each.sentence), plain(each.unit), "yes" if each.source else "")
                 for each in signals
-                if not each.name.startswith("axis2")
+                if "axis2" not in each.name
             ],
         ),
         "## Actions",

@@ -54,14 +54,7 @@ def _with_says(block: Block) -> Block:
 
 def _python(block: Block, before: Sequence[Block], folder: Path, request: pytest.FixtureRequest) -> None:
     if block.has("pytest"):
-        # It gives the process another home, where no compiled kernel is kept: so that is loaded before.
-        Emulator()
-        pytester = request.getfixturevalue("pytester")
-        pytester.makeini("[pytest]\nasyncio_default_fixture_loop_scope = function\n")
-        pytester.makepyfile(test_block=block.text)
-        shutil.copytree(folder, pytester.path, dirs_exist_ok=True)
-        result = pytester.runpytest_inprocess("-p", "no:cacheprovider", *_plugin())
-        assert result.ret == 0, result.stdout.str()
+        _pytest(block.text, folder, request)
         return
     with ExitStack() as stack:
         stack.enter_context(chdir(folder))
@@ -71,11 +64,15 @@ def _python(block: Block, before: Sequence[Block], folder: Path, request: pytest
             _execute(_placed(text, names), names, block)
 
 
-def _plugin() -> list[str]:
-    """The plugin by name where the package is not installed."""
-    from tests.conftest import pytest_plugins
-
-    return ["-p", "clients.pytest_plugin"] if "clients.pytest_plugin" in pytest_plugins else []
+def _pytest(text: str, folder: Path, request: pytest.FixtureRequest) -> None:
+    """Run a test module with the plugin of this package alone."""
+    Emulator()  # pytester gives the process another home, where no compiled kernel is kept; so it is loaded before
+    pytester: pytest.Pytester = request.getfixturevalue("pytester")
+    request.getfixturevalue("monkeypatch").setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
+    pytester.makepyfile(test_block=text)
+    shutil.copytree(folder, pytester.path, dirs_exist_ok=True)
+    result = pytester.runpytest_inprocess("-p", "no:cacheprovider", "-p", "clients.pytest_plugin")
+    assert result.ret == 0, result.stdout.str()
 
 
 def _continued(block: Block, before: Sequence[Block]) -> list[Block]:
