@@ -70,10 +70,10 @@ def tables() -> list[TableOfKeys]:
 
 
 def example(each: TableOfKeys) -> str:
-    """The table as it would be written in a machine file, every key with its default."""
+    """The table as it would be written in a machine file, every key with its default, if it has one."""
     lines = [f"[{each.path}]"] if each.path else []
     lines += [f'kind = "{each.kind}"'] if each.kind else []
-    lines += [_assignment(key) for key in each.keys]
+    lines += [_assignment(key) for key in each.keys if key.default is not None]
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -142,6 +142,8 @@ def type_name(node: inspect.Type) -> str:
             return f"list of {type_name(node.item_type)}s"
         case inspect.TupleType():
             return f"list of {len(node.item_types)} {type_name(node.item_types[0])}s"
+        case inspect.UnionType():
+            return " or ".join(map(type_name, node.types))
     return _WORDS[type(node)]
 
 
@@ -152,6 +154,7 @@ _WORDS: Final[Mapping[type[inspect.Type], str]] = {
     inspect.StrType: "text",
     inspect.LiteralType: "one of",
     inspect.StructType: "table",
+    inspect.NoneType: "nothing",
 }
 
 
@@ -226,6 +229,8 @@ def _row(key: Key) -> tuple[str, ...]:
 
 
 def _shown(value: Any) -> str:
+    if value is None:
+        return ""
     if isinstance(value, float) and math.isfinite(value) and value == int(value) and abs(value) >= 1e6:
         return f"{value:,.0f}"
     return toml_value(msgspec.to_builtins(value))

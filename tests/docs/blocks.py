@@ -9,7 +9,8 @@ Instructions, separated by semicolons:
     server [M.toml] [N]  Python: an emulator on real ports, of this machine file, of so many units in a chain
     unit              Python: `emu`, an `Emulator`, and its first `unit`
     pytest            Python: a test module, with the fixtures of our plugin
-    continues         Python: after the block of Python before it on the page, in the same names
+    continues         Python: after the block of Python before it on the page, in the same names; doctests
+                      always go on from the doctests before them
     with NAME NAME    run in a folder in which these files are; see material.py
     file NAME         this block is the text of a file that later blocks of the page use; run as its language says
     status N          console: the last command ends with this exit status

@@ -76,13 +76,25 @@ def _pytest(text: str, folder: Path, request: pytest.FixtureRequest) -> None:
 
 
 def _continued(block: Block, before: Sequence[Block]) -> list[Block]:
-    """The blocks a block goes on from, first to last."""
-    if not block.has("continues"):
+    """The blocks a block goes on from, first to last: for doctests the earlier doctests of the page."""
+    if not block.has("continues") and not is_doctest(block):
         return []
-    place, earlier = next(
-        (place, each) for place, each in reversed(list(enumerate(before))) if each.language == "python"
-    )
-    return [*_continued(earlier, before[:place]), earlier]
+    alike = [place for place, each in enumerate(before) if _may_precede(each, block)]
+    if not alike:
+        return []
+    earlier = before[alike[-1]]
+    return [*_continued(earlier, before[: alike[-1]]), earlier]
+
+
+def is_doctest(block: Block) -> bool:
+    """Whether a block of Python is a session with an interpreter."""
+    return block.text.lstrip().startswith(">>> ")
+
+
+def _may_precede(earlier: Block, block: Block) -> bool:
+    if earlier.language != "python" or earlier.has("none:"):
+        return False
+    return block.has("continues") or is_doctest(earlier)
 
 
 def _names(block: Block, stack: ExitStack) -> dict[str, Any]:
@@ -111,7 +123,7 @@ def _placed(text: str, names: Mapping[str, Any]) -> str:
 
 
 def _execute(text: str, names: dict[str, Any], block: Block) -> None:
-    if ">>>" in text:
+    if text.lstrip().startswith(">>> "):
         _doctest(text, names, block)
         return
     code = compile(text, block.place, "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
