@@ -4,6 +4,7 @@
 #   make bench   measure; prints a table and writes bench.json
 #   make fuzz    a million commands of random programs (ARGS="--commands N --seed N" for another run)
 #   make lint    ruff and mypy
+#   make docs    the documentation as a site in build/docs/html; needs no network
 #   make pictures  draw the pictures of docs/tuning anew
 
 PYTHON ?= python3
@@ -13,7 +14,7 @@ STAMP := $(VENV)/.installed
 ARGS ?=
 JOBS ?= 2
 
-.PHONY: run test bench fuzz lint pictures clean
+.PHONY: run test bench fuzz lint docs pictures clean
 
 run: $(STAMP)
 	@exec $(BIN)/python -m emulator serve $(ARGS)
@@ -31,6 +32,9 @@ lint: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+
+docs: $(STAMP)
+	@$(BIN)/python -m documentation build/docs
 
 # The seven steps of the tuning guide, and a change of gain sets in motion.
 TUNING := docs/tuning

@@ -23,6 +23,9 @@ SLOWEST_ANSWER = 4
 
 _LINE_ENDS = b"\r\n"
 
+_COMMANDS = re.compile(rb"[^:]*:|[^:]+\Z")
+"""The commands of a line, each with the colon that ends it."""
+
 _MESSAGE = re.compile(rb"\*((?:[A-Z]{2,}|WARNING:)(?:[ _:-][A-Z0-9_ :-]*[A-Z0-9])+)[\r\n\x00]*$")
 """An error message as it looks: words in capitals, with blanks (6000) or underscores (Gemini) between them."""
 
@@ -105,8 +108,28 @@ class Exchange:
             return self.received
         start = self._link.skip_echo(self.received, self._plan.echoed)
         if start < 0:
-            return None
+            return self._among_echoes() if self._plan.count > 1 else None
         return self.received[start:]
+
+    def _among_echoes(self) -> bytes | None:
+        """What stands between and after the echoes of several commands: each may be answered at its colon.
+
+        An asterisk before it shows the name in a reply, which is no echo.
+        """
+        *pieces, last = _COMMANDS.findall(self._plan.echoed)
+        rest, kept = self.received, []
+        for piece in pieces:
+            found = re.search(rb"(?<!\*)" + re.escape(piece), rest, re.IGNORECASE)
+            if found is None:
+                return None
+            kept.append(rest[: found.start()])
+            rest = rest[found.end() :]
+        found = re.search(rb"(?<!\*)" + re.escape(last), rest, re.IGNORECASE)
+        if found is None:
+            return None
+        kept.append(rest[: found.start()])
+        end = found.start() + self._link.skip_echo(rest[found.start() :], last)
+        return b"".join([*kept[1:], rest[end:]])
 
     def _look(self, *, at_rest: bool) -> Answer | None:
         body = self._after_echo()

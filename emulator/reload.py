@@ -110,11 +110,16 @@ def _report(path: Path, done: Future[Reload]) -> None:
     _log.warning(event_line("machine file re-read", file=path, applied=applied, needs_restart=rest))
 
 
+def takes_effect(key: str) -> bool:
+    """Whether a running unit takes over another value of a key; a plant is one key."""
+    return _IN_PLACE.fullmatch(key) is not None
+
+
 def _in_place(key: str, changed: list[str]) -> bool:
     """Input numbers mean other terminals while the file speaks of a unit with other inputs than this one has."""
     if key == "wires.inputs" and "io.inputs" in changed:
         return False
-    return _IN_PLACE.fullmatch(key) is not None
+    return takes_effect(key)
 
 
 def _with(table: Any, steps: list[str], value: Any) -> Any:

@@ -38,26 +38,31 @@ def machine_text(machine: Machine) -> str:
 
 
 def _document(tables: dict[str, Any]) -> str:
-    lines = [f"{_key(name)} = {_value(value)}" for name, value in tables.items() if not isinstance(value, dict)]
+    lines = [f"{toml_key(name)} = {toml_value(value)}" for name, value in tables.items() if not isinstance(value, dict)]
     for name, value in tables.items():
         if isinstance(value, dict):
-            lines += [f"[{_key(name)}]", *(f"{_key(key)} = {_value(inner)}" for key, inner in value.items())]
+            lines += [
+                f"[{toml_key(name)}]",
+                *(f"{toml_key(key)} = {toml_value(inner)}" for key, inner in value.items()),
+            ]
     return "".join(f"{line}\n" for line in lines)
 
 
-def _key(name: str) -> str:
+def toml_key(name: str) -> str:
+    """A key as TOML writes it."""
     return name if _BARE_KEY.fullmatch(name) else _string(name)
 
 
-def _value(value: Any) -> str:
+def toml_value(value: Any) -> str:
+    """A plain value (numbers, texts, lists and dicts of them) as TOML writes it."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
         return _string(value)
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{_key(key)} = {_value(inner)}" for key, inner in value.items()) + "}"
+        return "{" + ", ".join(f"{toml_key(key)} = {toml_value(inner)}" for key, inner in value.items()) + "}"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_value(inner) for inner in value) + "]"
+        return "[" + ", ".join(toml_value(inner) for inner in value) + "]"
     return repr(value) if isinstance(value, int) or math.isfinite(value) else str(value)
 
 

@@ -45,6 +45,24 @@ def connected(line: EmulatedLine, *first: str, **options: object) -> OEM6250:
     return OEM6250(line, **options)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(("level", "echo"), list(itertools.product(range(5), (0, 1))), ids=str)
+def test_several_commands_in_a_line(level: int, echo: int) -> None:
+    """Each is answered at its colon, so replies and prompts come among the echoes."""
+    ctl = connected(EmulatedLine(), f"ECHO{echo}", f"ERRLVL{level}")
+    ctl.send("A20:V5:D400")
+    ctl.send("1D:1V" if level > 1 else "MA0:MC0")
+    assert (ctl.query("1A"), ctl.query("1V"), ctl.query("1D")) == ("20.0000", "5.0000", "+400")
+
+
+def test_the_lines_of_several_replies() -> None:
+    ctl = connected(EmulatedLine())
+    assert ctl.send("1TPE:1TPE").lines == ("*1TPE+0", "*1TPE+0")
+    assert ctl.send("D8:1TPE").lines == ("*1TPE+0",)
+    with pytest.raises(UnitError, match="UNDEFINED LABEL"):
+        ctl.send("A10:XYZZY:V1")
+    assert ctl.query("1TPE") == "+0"
+
+
 @pytest.mark.parametrize(("level", "echo", "eot"), list(itertools.product(range(5), (0, 1), EOTS)), ids=str)
 def test_every_level_echo_and_eot(level: int, echo: int, eot: str) -> None:
     line = EmulatedLine()

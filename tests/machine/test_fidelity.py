@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import doctest
 from pathlib import Path
 from typing import Any
 
@@ -53,10 +52,3 @@ def test_the_ledger_works_without_the_catalogue_and_lists_it_when_given() -> Non
     assert text.count("\n| `") == len(entries()) + len(rows())
     for line in LIMITS:
         assert line in text
-
-
-def test_the_guide_to_the_machine_file_is_true(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(DOCS.parent)
-    result = doctest.testfile(str(DOCS / "machine-file.md"), module_relative=False)
-    assert result.attempted >= 6
-    assert result.failed == 0
