@@ -42,7 +42,7 @@ class Store:
         self._connection = Connection()
         self._written: dict[int, int] = {}
 
-    async def async_getValues(  # noqa: N802
+    async def async_getValues(
         self, device_id: int, func_code: int, address: int, count: int = 1
     ) -> list[int] | ExcCodes:
         """Words; any device id is this device (RMC101 p. 428). Function 6 is answered with what it wrote."""
@@ -50,7 +50,7 @@ class Store:
             return [self._written.pop(address, 0)]
         return await self._attempt(lambda: self._registers.read(address, count, self._connection))
 
-    async def async_setValues(  # noqa: N802
+    async def async_setValues(
         self, device_id: int, func_code: int, address: int, values: Sequence[int]
     ) -> ExcCodes | None:
         """Write words, all or none."""
