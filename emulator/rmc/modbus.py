@@ -8,15 +8,18 @@ other; `run` puts every request between two loops of the device, so a write is s
 from __future__ import annotations
 
 import asyncio
+import struct
 from collections import deque
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, TypeVar
 
 from pymodbus.constants import ExcCodes
+from pymodbus.exceptions import ModbusIOException
 from pymodbus.pdu import ExceptionResponse
 from pymodbus.server import ModbusTcpServer
 from pymodbus.server.requesthandler import ServerRequestHandler
 from pymodbus.simulator import DataType, SimData, SimDevice
+from pymodbus.transaction import TransactionManager
 
 from emulator.ports.listeners import address_text, bind_all
 
@@ -29,6 +32,10 @@ Run = Callable[[Callable[[], Any]], Awaitable[Any]]
 READ_HOLDING, READ_INPUT, WRITE_ONE, DIAGNOSTICS, WRITE_MANY, READ_WRITE = 3, 4, 6, 8, 16, 23
 FUNCTIONS = frozenset({READ_HOLDING, READ_INPUT, WRITE_ONE, DIAGNOSTICS, WRITE_MANY, READ_WRITE})
 """Functions of an RMC (M450); any other is refused with exception 1."""
+HEADER = struct.Struct(">HHHBB")
+"""Transaction, protocol, length, unit, function."""
+LENGTH_FROM = 6
+"""Where what the length counts begins."""
 LONGEST_QUEUE = 64
 """Requests of a master that may wait; one that goes on without reading answers is cut off (design choice)."""
 
@@ -67,6 +74,15 @@ class Store:
         return result
 
 
+def impossible_request(data: bytes) -> tuple[int, Any]:
+    """The length of a frame whose request cannot be read, and its answer: a count or length that is not allowed is
+    exception 3, an unknown function exception 1."""
+    transaction, _, length, unit, function = HEADER.unpack_from(data)
+    code = ExcCodes.ILLEGAL_VALUE if function in FUNCTIONS else ExcCodes.ILLEGAL_FUNCTION
+    answer = ExceptionResponse(function & 0x7F, code, device_id=unit, transaction=transaction)
+    return min(len(data), LENGTH_FROM + length), answer
+
+
 class _Handler(ServerRequestHandler):
     """One connection, its requests in order."""
 
@@ -80,15 +96,25 @@ class _Handler(ServerRequestHandler):
         """Take every whole request out of what has arrived."""
         used = 0
         while used < len(data):
-            taken = super().callback_data(data[used:], addr)
-            if self.last_pdu is not None:
-                self._queue.append((self.last_pdu, self.last_addr))
+            taken, request = self._next_request(data[used:], addr)
+            if request is not None:
+                self._queue.append((request, addr))
             if not taken:
                 break
             used += taken
+        self.loop.call_soon(self.handle_later)
         if len(self._queue) > LONGEST_QUEUE:
             self.close()
         return used
+
+    def _next_request(self, data: bytes, addr: tuple | None) -> tuple[int, Any]:
+        """The bytes of the first request, and the request: an answer already, if it cannot be one."""
+        try:
+            taken = TransactionManager.callback_data(self, data, addr)
+        except ModbusIOException:
+            # pymodbus would answer with function 0 and throw away whatever else has arrived.
+            return impossible_request(data)
+        return taken, self.last_pdu
 
     def handle_later(self) -> None:
         """Work the queue off, unless that is being done."""
@@ -109,6 +135,8 @@ class _Handler(ServerRequestHandler):
                 self.server_send(response, addr)
 
     async def _answer(self, pdu: Any) -> Any:
+        if isinstance(pdu, ExceptionResponse):
+            return pdu
         if pdu.function_code not in FUNCTIONS:
             return ExceptionResponse(pdu.function_code, ExcCodes.ILLEGAL_FUNCTION)
         try:
