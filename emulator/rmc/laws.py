@@ -11,6 +11,7 @@ through the integral (M975; that the adjustments accumulate in a clamped output 
 
     u = clamp(u + Ki e T - Kp (y - y[n-1]) - Kd (y' - y'[n-1]) - ...)    PFID % = r u
 
+While the output is saturated nothing grows in its direction, neither the integrator of a PID nor u (inferred).
 r is 1 with symmetrical gains, or in the direction with the larger velocity feed forward, else smaller over larger
 (M981, M990). All results are percentages of the maximum Control Output.
 """
@@ -162,7 +163,9 @@ def accumulate(axis: Record, error: float, loop_s: float) -> float:
     axis["term_aff"] = 0.0
     axis["term_jff"] = 0.0
     change = axis["term_i"] + axis["term_p"] + axis["term_d"] + axis["term_double"] + axis["term_triple"]
-    axis["accumulated"] = held_within(axis["accumulated"] + change, FULL_PERCENT)
+    # An Output Limit below 100 % saturates earlier than the clamp; beyond it nothing may pile up either.
+    if axis["saturated"] * change <= 0.0:
+        axis["accumulated"] = held_within(axis["accumulated"] + change, FULL_PERCENT)
     return float(axis["gain_ratio"] * axis["accumulated"])
 
 

@@ -10,6 +10,8 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
+LAST_REGISTER: Final = 59 * 4096 + 255
+"""The last register there is, as a parameter names it: a variable."""
 REQUEST: Final = 256
 """Added to a command's number by a host that toggles REQ (M424)."""
 
@@ -52,7 +54,7 @@ _DECEL = Field("decel", positive=True)
 _POSITION = Field("position")
 _DISTANCE = Field("distance")
 _RELATIVE_TO = Field("relative_to", choices=(0, 1, 2))
-_MASTER = Field("master", low=0, high=65_535)
+_MASTER = Field("master", low=0, high=LAST_REGISTER)
 _OUTPUT = Field("output_v", low=-10.0, high=10.0)
 _RAMP = Field("ramp_v_s", positive=True)
 _NOT_BUILT: Final = ()
