@@ -118,14 +118,9 @@ def _do(device: DeviceLike, axis: Axis, command: CommandType, values: list[float
     if not command.motion:
         CARRIED[command.name](device, axis, values)
         return
-    kept = {name: axis[name] for name in ("speed_limit", "jump", "moves_to_position", "command_follows")}
-    axis.write(off_when_done=0)
+    # Cleared first: what the command itself has to complain of shall stay.
     axis.clear_faults()
-    try:
-        CARRIED[command.name](device, axis, values)
-    except Refused:
-        axis.write(**kept)
-        raise
+    CARRIED[command.name](device, axis, values)
     axis.began = (command.number, *values)
 
 
@@ -177,16 +172,16 @@ def base_of(axis: Axis, relative_to: float) -> float:
     return axis[("command_position", "actual_position", "target_position")[int(relative_to)]]
 
 
-def bind_master(device: DeviceLike, axis: Axis, number: float) -> None:
-    """Make a register the axis's master; Refused for one that cannot be."""
+def find_master(device: DeviceLike, axis: Axis, number: float) -> dict[str, float]:
+    """Fields of the axis record that make a register its master; Refused for one that cannot be."""
     place = Place.of_number(int(number))
     index = place.file - STATUS_FILE
     if place.file in VARIABLE_FILES and place.element < 256 and number == int(number):
         variable = (place.file - VARIABLE_FILES[0]) * 256 + place.element
-        axis.write(master_word=-1, master_variable=variable)
+        found = {"master_word": -1, "master_variable": variable}
     elif 0 <= index < len(device.axes) and index != axis.index and place.element in MASTER_FIELDS:
-        axis.write(master_word=master_word(index, MASTER_FIELDS[place.element]))
+        found = {"master_word": master_word(index, MASTER_FIELDS[place.element])}
     else:
         raise Refused(Complaint.BAD_PARAMETER)
     value = device.value_of_master(place)
-    axis.write(master=value, previous_master=value)
+    return {**found, "master": value, "previous_master": value}

@@ -13,10 +13,10 @@ from .commands import (
     DeviceLike,
     Values,
     base_of,
-    bind_master,
     carries_out,
     close,
     close_position,
+    find_master,
     go_for,
 )
 from .laws import clear_terms
@@ -136,12 +136,12 @@ def move_relative_i_pd(device: DeviceLike, axis: Axis, values: Values) -> None:
 @carries_out("speed_at_position")
 def speed_at_position(device: DeviceLike, axis: Axis, values: Values) -> None:
     """Reach a velocity at a position in one ramp; refused where none leads there."""
-    close_position(axis)
     position, velocity = values
     way = position - axis["target_position"]
     plan = plan_speed_at(way, axis["target_velocity"], to_velocity=velocity, shape=axis.shape)
     if plan is None:
         raise Refused(Complaint.BAD_PARAMETER)
+    close_position(axis)
     goal = go_for(axis, position)
     axis.write(moves_to_position=velocity == 0.0)
     axis.follow(plan, end=goal)
@@ -207,9 +207,10 @@ def engage(device: DeviceLike, axis: Axis, master: float) -> None:
     """Close the position loop behind a master."""
     if axis.next_mode.velocity:
         raise Refused(Complaint.WRONG_MODE)
-    bind_master(device, axis, master)
+    found = find_master(device, axis, master)
     close_position(axis)
     axis.write(
+        **found,
         moves_to_position=0,
         command_follows=COMMAND_FOLLOWS_BOTH,
         generator_loops=0,
@@ -265,12 +266,11 @@ def gear_absolute(device: DeviceLike, axis: Axis, values: Values) -> None:
     master, master_a, master_b, slave_a, slave_b, end_point = values
     if master_a == master_b:
         raise Refused(Complaint.BAD_PARAMETER)
-    engage(device, axis, master)
-    share = (axis["master"] - master_a) / (master_b - master_a)
+    share = (find_master(device, axis, master)["master"] - master_a) / (master_b - master_a)
     place = slave_a + share * (slave_b - slave_a)
     if abs(place - axis["target_position"]) > axis["position_error_tolerance"]:
-        rest(axis.record)
         raise Refused(Complaint.BAD_PARAMETER)
+    engage(device, axis, master)
     axis.write(
         generator=GEAR_MAP,
         gear_master_at=master_a,
@@ -301,9 +301,10 @@ def track_position(device: DeviceLike, axis: Axis, values: Values) -> None:
 def track_position_i_pd(device: DeviceLike, axis: Axis, values: Values) -> None:
     """Position I-PD with the master as target, at a limited speed."""
     master, speed = values
-    bind_master(device, axis, master)
+    found = find_master(device, axis, master)
     close(axis, ControlMode.POSITION_I_PD)
     axis.write(
+        **found,
         generator=TRACK_STEPS,
         speed_limit=speed,
         moves_to_position=0,
