@@ -1,6 +1,7 @@
 """What a host program or a test imports to talk to a unit, emulated or physical.
 
-`OEM6250` blocks, `AsyncOEM6250` is for asyncio; `LineClient` only moves bytes. See docs/client.md. A name's module is
+`OEM6250` blocks, `AsyncOEM6250` is for asyncio; `LineClient` only moves bytes (docs/client.md). `RMC` is for a Delta
+RMC over Modbus/TCP (docs/rmc.md). A name's module is
 read when the name is first asked for: the pytest plugin lives here and is loaded in every project that has it.
 """
 
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from clients.lines import Line, open_line
     from clients.plan import Answer
     from clients.programs import StoredProgram
+    from clients.rmc import RMC, RmcFault, RmcLost, RmcRefused, RmcTimeout
     from clients.status import (
         AxisFlags,
         ErrorFlags,
@@ -40,6 +42,7 @@ if TYPE_CHECKING:
 __all__ = [
     "DEFAULT_PROMPTS",
     "OEM6250",
+    "RMC",
     "Answer",
     "AsyncOEM6250",
     "AxisFlags",
@@ -60,6 +63,10 @@ __all__ = [
     "MotionError",
     "NoAnswer",
     "OtherInputFlags",
+    "RmcFault",
+    "RmcLost",
+    "RmcRefused",
+    "RmcTimeout",
     "StatusWord",
     "StoredProgram",
     "SystemFlags",
@@ -92,6 +99,11 @@ _MODULES = {
     "NoAnswer": "errors",
     "OEM6250": "sync",
     "OtherInputFlags": "status",
+    "RMC": "rmc",
+    "RmcFault": "rmc",
+    "RmcLost": "rmc",
+    "RmcRefused": "rmc",
+    "RmcTimeout": "rmc",
     "StatusWord": "status",
     "StoredProgram": "programs",
     "SystemFlags": "status",

@@ -21,7 +21,7 @@ import pytest
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from clients.testing import Emulated, Served
+    from clients.testing import Emulated, EmulatedRmc, Served
 
 TAIL_LINES = 40
 """Lines of traffic shown of a failing test, unless it is told otherwise."""
@@ -31,6 +31,7 @@ MARKER = (
     "a Machine, a machine file's text or path; units side by side (oem6250 alone) or chain on one line; "
     "how time passes behind ports: 'waiting', 'max' or N; names for inputs and outputs; see docs/testing.md"
 )
+RMC_MARKER = "rmc151(machine=None): the machine of this test's emulated RMC151; see docs/rmc.md"
 _KNOWN = frozenset({"machine", "units", "chain", "speed", "names", "quiet_ms", "process"})
 _IN_TEST = pytest.StashKey[list["Emulated | Served"]]()
 
@@ -61,6 +62,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Make the marker known, and refuse a speed that is none before anything runs."""
     config.addinivalue_line("markers", MARKER)
+    config.addinivalue_line("markers", RMC_MARKER)
     _speed_of(_option(config, "speed"))
 
 
@@ -108,6 +110,24 @@ def oem6250_server(request: pytest.FixtureRequest, oem6250_machine: Any) -> Iter
     with Served(machine, chain=wishes.get("chain", 1), speed=speed, names=wishes.get("names"), **quiet) as server:
         _remember(request, server)
         yield server
+
+
+@pytest.fixture
+def rmc151_machine() -> Any:
+    """The machine of the emulated RMC, as `oem6250_machine`; ``@pytest.mark.rmc151(machine=...)`` goes before it."""
+    return None
+
+
+@pytest.fixture
+def rmc151(request: pytest.FixtureRequest, rmc151_machine: Any) -> Iterator[EmulatedRmc]:
+    """A Delta RMC151 in this process on virtual time, with a connected client (docs/rmc.md)."""
+    from clients.testing import EmulatedRmc
+
+    marker = request.node.get_closest_marker("rmc151")
+    if marker is not None and (marker.args or not set(marker.kwargs) <= {"machine"}):
+        raise pytest.UsageError("@pytest.mark.rmc151 takes machine by name")
+    with EmulatedRmc(rmc151_machine if marker is None else marker.kwargs.get("machine", rmc151_machine)) as emu:
+        yield emu
 
 
 @pytest.hookimpl(wrapper=True)

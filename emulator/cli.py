@@ -22,6 +22,10 @@ from emulator.serial_address import SerialAddress, parse_serial
 if TYPE_CHECKING:
     from emulator.server import Build
 
+DEFAULT_DEVICE = "oem6250"
+DEVICES = (DEFAULT_DEVICE, "rmc151")
+NOT_OF_AN_RMC = ("tcp", "telnet", "no_tcp", "serial", "shared_line", "units", "line", "record")
+"""Options that only an OEM6250 has, as far as giving them can be told from leaving them out."""
 DEFAULT_TCP = ("127.0.0.1", 6250)
 MAX_SPEED = 1e6
 BAUD_RANGE = range(110, 921_601)
@@ -66,6 +70,10 @@ def main(arguments: Sequence[str] | None = None, *, build: Build | None = None) 
     if parsed.command != "serve":
         return _carry_out(parsed)
     options = _serve_options(parsed)
+    if options.device != DEFAULT_DEVICE:
+        from emulator.rmc.serving import serve_rmc
+
+        return serve_rmc(options)
     from emulator.server import serve
 
     return serve(options, build)
@@ -120,6 +128,9 @@ def _add_serve(commands: argparse._SubParsersAction[_Parser]) -> None:
     )
     add = serve.add_argument
     add("machine", nargs="?", metavar="MACHINE.toml", help="machine file (default: two wired axes)")
+    add("--device", choices=DEVICES, default=DEFAULT_DEVICE, help="what to be (default: oem6250)")
+    add("--modbus", type=_address, metavar="HOST:PORT", help="where an rmc151 listens (default: port 502, or rmc.port "
+        "of the machine file)")  # fmt: skip
     add("--tcp", action="append", type=_address, metavar="HOST:PORT", help="listen here; may be repeated, port 0 picks "
         "a free one (default: 127.0.0.1:6250)")  # fmt: skip
     add("--telnet", action="append", type=_address, metavar="HOST:PORT", help="listen here and speak telnet first, for "
@@ -190,11 +201,14 @@ def _do_check(parsed: argparse.Namespace) -> int:
 
 
 def _serve_options(parsed: argparse.Namespace) -> ServeOptions:
+    _refuse_foreign_options(parsed)
     if parsed.no_tcp and parsed.tcp:
         _parser().error("argument --no-tcp: not allowed with --tcp")
     tcp = () if parsed.no_tcp else tuple(parsed.tcp or (DEFAULT_TCP,))
     pty = None if parsed.pty == "none" or (parsed.pty == "auto" and sys.platform == "win32") else parsed.pty
     return ServeOptions(
+        device=parsed.device,
+        modbus=parsed.modbus,
         machine=parsed.machine,
         tcp=tcp,
         telnet=tuple(parsed.telnet or ()),
@@ -210,6 +224,19 @@ def _serve_options(parsed: argparse.Namespace) -> ServeOptions:
         serial=tuple(parsed.serial or ()),
         shared_line=parsed.shared_line,
     )
+
+
+def _refuse_foreign_options(parsed: argparse.Namespace) -> None:
+    """Options of one device do not go with the other."""
+    if parsed.device == DEFAULT_DEVICE:
+        if parsed.modbus is not None:
+            _parser().error("argument --modbus: only with --device rmc151")
+        return
+    for name in NOT_OF_AN_RMC:
+        if getattr(parsed, name) not in (None, False, 1):
+            _parser().error(f"argument --{name.replace('_', '-')}: not allowed with --device {parsed.device}")
+    if parsed.state != "none":
+        _parser().error(f"argument --state: not allowed with --device {parsed.device}")
 
 
 def _address(text: str) -> tuple[str, int]:

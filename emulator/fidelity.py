@@ -18,7 +18,7 @@ from typing import Any, Final, Protocol
 import msgspec
 from msgspec import inspect
 
-from emulator.machine import Machine, VelocityDrive
+from emulator.machine import AXIS_KEYS, Machine, VelocityDrive
 from emulator.machine_settings import DEFAULT_SETTINGS
 from emulator.plant_tables import KINDS
 
@@ -84,7 +84,7 @@ class Entry:
 
 
 def entries(machine: Machine | None = None) -> list[Entry]:
-    """Every value of `machine` (the default one if None) with its provenance, in file order; axis 2 is as axis 1."""
+    """Every value of `machine` (None: the default one) with its provenance, in file order; other axes are as axis 1."""
     machine = machine or Machine.default()
     found = _table_entries(machine, inspect.type_info(Machine), "")
     other_plants = [
@@ -93,7 +93,8 @@ def entries(machine: Machine | None = None) -> list[Entry]:
         if table is not VelocityDrive
         for entry in _table_entries(table(), inspect.type_info(table), f"axis1.plant ({kind}).")
     ]
-    return [*(entry for entry in found if not entry.key.startswith("axis2.")), *other_plants, *_default_entries()]
+    others = tuple(f"{key}." for key in AXIS_KEYS[1:])
+    return [*(entry for entry in found if not entry.key.startswith(others)), *other_plants, *_default_entries()]
 
 
 def render(rows: Iterable[CatalogueRow] = ()) -> str:
@@ -157,7 +158,7 @@ def _head(ledger: list[Entry]) -> str:
 Made by `python -m emulator.fidelity > docs/fidelity.md`; do not edit.
 
 Manuals for the OEM6250 survive only in part. Every value that could be wrong has one address: a key of the machine
-file, listed here with its provenance (axis 2 is as axis 1). Of {len(ledger)} values:
+file, listed here with its provenance (the other axes are as axis 1). Of {len(ledger)} values:
 {listed}.
 
 - *documented*: a page of a manual says so. *Seen in host software*: a program written for real units relies on it.

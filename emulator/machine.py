@@ -47,6 +47,7 @@ from emulator.plant_tables import (
     nan_keys,
     plant_conflict,
 )
+from emulator.rmc.tables import Rmc, rmc_conflicts
 from emulator.table_fields import Table, known
 
 __all__ = [
@@ -62,6 +63,7 @@ __all__ = [
 
 _BARE_WIRES: Final = {"enable": "open"}
 _BARE_AXIS_WIRES: Final = {"positive_limit": "open", "negative_limit": "open", "home": "open", "drive_fault": "open"}
+AXIS_KEYS: Final = tuple(f"axis{number}" for number in range(1, 9))
 TRIGGERS: Final = 2
 """TRG-A and TRG-B are the two bits after the programmable inputs (assumed M)."""
 
@@ -111,7 +113,14 @@ class Machine(Table, frozen=True):
     encoder: Annotated[EncoderInput, known("the encoder inputs", "assumed", "L")] = EncoderInput()
     axis1: Annotated[Axis, known("what is connected to axis 1", "design")] = Axis()
     axis2: Annotated[Axis, known("what is connected to axis 2", "design")] = Axis()
+    axis3: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
+    axis4: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
+    axis5: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
+    axis6: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
+    axis7: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
+    axis8: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
     wires: Annotated[Wires, known("contacts common to the unit", "design")] = Wires()
+    rmc: Annotated[Rmc, known("a Delta RMC in place of the OEM6250", "design")] = Rmc()
 
     @classmethod
     def default(cls) -> Machine:
@@ -151,8 +160,13 @@ class Machine(Table, frozen=True):
 
     @property
     def axes(self) -> tuple[Axis, Axis]:
-        """Both axes, axis 1 first."""
+        """Both axes of an OEM6250, axis 1 first."""
         return (self.axis1, self.axis2)
+
+    @property
+    def all_axes(self) -> tuple[Axis, ...]:
+        """The axes an RMC may have, axis 1 first."""
+        return (*self.axes, self.axis3, self.axis4, self.axis5, self.axis6, self.axis7, self.axis8)
 
     @property
     def sign_on_lines(self) -> tuple[str, ...]:
@@ -193,7 +207,7 @@ def _settle_timing(raw: dict[str, Any], *, name: str) -> None:
 
 
 def _fill_presets(raw: dict[str, Any], *, name: str) -> None:
-    for axis in ("axis1", "axis2"):
+    for axis in AXIS_KEYS:
         table = raw.get(axis)
         if isinstance(table, dict):
             fill_preset(table.get("plant"), key=f"{axis}.plant", file=name)
@@ -232,6 +246,8 @@ def _conflicts(machine: Machine) -> list[tuple[str, str, str]]:
         *_travel_conflicts(machine),
         *_serial_conflicts(machine),
         *_plant_conflicts(machine),
+        *_axis_conflicts(machine),
+        *rmc_conflicts(machine.rmc, tuple(axis.rmc for axis in machine.all_axes)),
     ]
 
 
@@ -271,7 +287,7 @@ def _range_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
 
 def _travel_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
     conflicts = []
-    for number, axis in enumerate(machine.axes, start=1):
+    for number, axis in enumerate(machine.all_axes, start=1):
         key, travel = f"axis{number}.travel", axis.travel
         if not travel.negative_limit_rev < travel.positive_limit_rev:
             found = f"{travel.positive_limit_rev:g}"
@@ -285,7 +301,7 @@ def _travel_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
 
 def _plant_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
     conflicts = []
-    for number, axis in enumerate(machine.axes, start=1):
+    for number, axis in enumerate(machine.all_axes, start=1):
         if (conflict := plant_conflict(axis.plant)) is not None:
             key, found, allowed = conflict
             conflicts.append((f"axis{number}.plant.{key}", found, allowed))
@@ -295,6 +311,16 @@ def _plant_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
                 (f"axis{number}.encoder.counts_per_unit", found, "nothing unless a hydraulic_cylinder moves")
             )
     return conflicts
+
+
+def _axis_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
+    """Axes beyond the second are an RMC's, as many as it has."""
+    beyond = max(machine.rmc.axes, len(machine.axes))
+    return [
+        (f"axis{number}", "a table", f"nothing unless rmc.axes is {number} or more")
+        for number, axis in enumerate(machine.all_axes, start=1)
+        if number > beyond and axis != Axis()
+    ]
 
 
 def _rate_conflicts(machine: Machine) -> list[tuple[str, str, str]]:

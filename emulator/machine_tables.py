@@ -18,6 +18,7 @@ from typing import Annotated, Final, Literal
 import msgspec
 
 from emulator.plant_tables import PlantTable, VelocityDrive
+from emulator.rmc.tables import RmcAxis
 from emulator.table_fields import Table, known
 
 Contact = Literal["closed", "open"]
@@ -398,6 +399,7 @@ class Axis(Table, frozen=True):
     wires: Annotated[AxisWires, known("its contacts", "design")] = AxisWires()
     travel: Annotated[Travel, known("its switches along the travel", "design")] = Travel()
     ani: Annotated[AnalogSensor, known("its analog position sensor", "design")] = AnalogSensor()
+    rmc: Annotated[RmcAxis, known("what an RMC knows of it", "design")] = RmcAxis()
 
 
 Volts = Annotated[float, msgspec.Meta(ge=0.0, le=2.5)]

@@ -11,6 +11,10 @@ from emulator.serial_address import SerialAddress
 class ServeOptions:
     """The options of one server; the defaults are those of the command line."""
 
+    device: str = "oem6250"
+    """`oem6250` or `rmc151`."""
+    modbus: tuple[str, int] | None = None
+    """Where an RMC listens; None is the port of the machine file on this machine."""
     machine: str | None = None
     """Path of the machine file; None is the default machine."""
     tcp: tuple[tuple[str, int], ...] = (("127.0.0.1", 6250),)

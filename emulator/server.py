@@ -233,7 +233,7 @@ class Server:
         if remote := [address for port in self._tcp for address in port.remote_addresses]:
             _say(f"--allow-remote: whoever reaches {', '.join(remote)} commands the unit; there is no password")
         if options.announce is not None:
-            _announce(options.announce, self._announcement())
+            announce(options.announce, self._announcement())
         else:
             telnet = self._addresses(negotiate=True)
             serial = [port.name for port in self._serial]
@@ -295,7 +295,7 @@ def _open_pty(link: str) -> Any:
     return PtyPort(link)
 
 
-def _announce(place: str, line: str) -> None:
+def announce(place: str, line: str) -> None:
     """One line on stdout, or a file that appears complete."""
     if place == "-":
         print(line, flush=True)

@@ -19,14 +19,16 @@ if TYPE_CHECKING:
     from clients.testing.behind_ports import Served, served
     from clients.testing.errors import NotReached
     from clients.testing.in_process import Emulated, emulated
+    from clients.testing.rmc import EmulatedRmc
     from clients.testing.unittests import EmulatedMixin
     from clients.testing.virtual_line import VirtualLine
 
-__all__ = ["Emulated", "EmulatedMixin", "NotReached", "Served", "VirtualLine", "emulated", "served"]
+__all__ = ["Emulated", "EmulatedMixin", "EmulatedRmc", "NotReached", "Served", "VirtualLine", "emulated", "served"]
 
 _HOME_OF = {
     "Emulated": "clients.testing.in_process",
     "EmulatedMixin": "clients.testing.unittests",
+    "EmulatedRmc": "clients.testing.rmc",
     "NotReached": "clients.testing.errors",
     "Served": "clients.testing.behind_ports",
     "VirtualLine": "clients.testing.virtual_line",

@@ -22,7 +22,7 @@ import os
 import platform
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import version
@@ -44,6 +44,7 @@ CACHE_VARIABLE = "OEM6250_CACHE_DIR"
 
 BUILD_ESTIMATE_S = 20
 """What a build takes on a small machine, for the message only."""
+FOR_THIS_MACHINE = f"for this machine, about {BUILD_ESTIMATE_S} s"
 
 # numba's run-time helpers that its C callback names for the handling of exceptions. The kernel raises none, so they are
 # never called, but the linker wants an address for each where numba is not imported.
@@ -67,11 +68,14 @@ ONE_UNIT = 0
 """Number of lanes that stands for a unit by itself, which runs only up to its next event."""
 
 OnBuild = Callable[[str], None]
+Function = Callable[..., Any]
 Advance = Callable[[int], int]
 
 _ARGUMENTS = (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64)
-_RELEASING = ctypes.CFUNCTYPE(ctypes.c_int64, *_ARGUMENTS)
-_KEEPING = ctypes.PYFUNCTYPE(ctypes.c_int64, *_ARGUMENTS)
+RELEASING = ctypes.CFUNCTYPE(ctypes.c_int64, *_ARGUMENTS)
+"""How an entry point is called that gives the interpreter lock away meanwhile."""
+KEEPING = ctypes.PYFUNCTYPE(ctypes.c_int64, *_ARGUMENTS)
+"""How one is called that keeps it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,14 +104,14 @@ class Kernel:
             return _bind_interpreted(memory)
         table = memory.addresses()
         place = table.ctypes.data
-        return Calls(_bound(_RELEASING(self.address), place), _bound(_KEEPING(self.address), place), table)
+        return Calls(_bound(RELEASING(self.address), place), _bound(KEEPING(self.address), place), table)
 
     def bind_lanes(self, memory: Memory, count: int) -> Advance:
         """Bind the kernel to the arrays of `count` units; the call releases the interpreter lock and returns 0."""
         if self.origin == "interpreted":
             return _bind_interpreted_lanes(memory)
         table = memory.addresses()
-        function = _RELEASING(self.address)
+        function = RELEASING(self.address)
 
         def advance(until_ns: int) -> int:
             return int(function(table.ctypes.data, count, until_ns))
@@ -140,26 +144,42 @@ def load_kernel(on_build: OnBuild | None = None) -> Kernel:
 def load_compiled(on_build: OnBuild | None = None) -> Kernel:
     """The compiled kernel from the cache, else newly built and stored."""
     path = cache_path()
+    return cached_kernel(path) or build_saying(f"building the servo kernel {FOR_THIS_MACHINE}", build, path, on_build)
+
+
+def cached_kernel(path: Path) -> Kernel | None:
+    """The kernel in a cache file, if it is whole and has its entry point."""
     cached = read_object(path)
-    if cached is not None:
-        try:
-            return link(cached)
-        except RuntimeError:
-            # Whole, yet not what this numba would make, such as a file written by a broken build: build again.
-            pass
+    if cached is None:
+        return None
+    try:
+        return link(cached)
+    except RuntimeError:
+        # Whole, yet not what this numba would make, such as a file written by a broken build: build again.
+        return None
+
+
+def build_saying(sentence: str, build: Callable[[Path], Kernel], path: Path, on_build: OnBuild | None) -> Kernel:
+    """Build a kernel, after a sentence for the user."""
     if on_build is not None:
-        on_build(f"building the servo kernel for this machine, about {BUILD_ESTIMATE_S} s")
+        on_build(sentence)
     return build(path)
 
 
 def cache_path() -> Path:
     """Where this kernel's object code is kept; OEM6250_CACHE_DIR overrides the directory."""
+    records = (UNIT, AXIS, PLANT, SEGMENT, WATCH, SCOPE)
+    return cache_file("servo", fingerprint(KERNEL_FUNCTIONS, records, also=(__file__,)))
+
+
+def cache_file(name: str, digest: str) -> Path:
+    """Where the object code of a kernel of this name and digest is kept."""
     directory = os.environ.get(CACHE_VARIABLE)
     if not directory:
         from platformdirs import user_cache_dir
 
         directory = user_cache_dir("oem6250", appauthor=False)
-    return Path(directory) / f"servo-{_fingerprint()}.kernel"
+    return Path(directory) / f"{name}-{digest}.kernel"
 
 
 def read_object(path: Path) -> ObjectCode | None:
@@ -219,7 +239,11 @@ def link(compiled: ObjectCode) -> Kernel:
 
 def build(path: Path) -> Kernel:
     """Compile the kernel with numba and store it at `path` if that is possible."""
-    function = _compile()
+    return keep(_compile(), path)
+
+
+def keep(function: Any, path: Path) -> Kernel:
+    """The kernel of a numba C callback, its object code stored at `path` if that is possible."""
     try:
         compiled = ObjectCode(function._wrapper_name, bytes(function._library._get_compiled_object()))
     except AttributeError:
@@ -235,13 +259,7 @@ def _compile() -> Any:
     The functions are compiled as copies whose globals name the compiled callees; the originals stay plain Python. The
     entry takes the table of `Memory.addresses`: one pointer costs a caller less than eight.
     """
-    numba: Any = import_module("numba")
-    compiled: dict[int, Any] = {}
-    for function in KERNEL_FUNCTIONS:
-        names = {name: compiled.get(id(value), value) for name, value in function.__globals__.items()}
-        copy = FunctionType(function.__code__, names, function.__name__)
-        inline = function not in CALLED_FUNCTIONS
-        compiled[id(function)] = numba.njit(nogil=True, error_model="numpy", forceinline=inline)(copy)
+    numba, compiled = compile_functions(KERNEL_FUNCTIONS, CALLED_FUNCTIONS)
     advance_one, advance_lanes, carray = compiled[id(cycle.advance)], compiled[id(lanes.advance_lanes)], numba.carray
 
     def entry(table, lane_count, until_ns):  # type: ignore[no-untyped-def]
@@ -268,19 +286,36 @@ def _compile() -> Any:
             return advance_one(units[0], axes, plants, segments, watches, scope, until_ns)
         return advance_lanes(units, axes, plants, segments, watches, scope, until_ns)
 
+    return as_callback(numba, entry)
+
+
+def compile_functions(functions: Iterable[Function], called: Collection[Function]) -> tuple[Any, dict[int, Any]]:
+    """numba, and by the id of each of the functions (callees first) its copy that numba compiles when it is called."""
+    numba: Any = import_module("numba")
+    compiled: dict[int, Any] = {}
+    for function in functions:
+        names = {name: compiled.get(id(value), value) for name, value in function.__globals__.items()}
+        copy = FunctionType(function.__code__, names, function.__name__)
+        inline = function not in called
+        compiled[id(function)] = numba.njit(nogil=True, error_model="numpy", forceinline=inline)(copy)
+    return numba, compiled
+
+
+def as_callback(numba: Any, entry: Any) -> Any:
+    """`entry(table of addresses, number, number) -> number` as a numba C callback."""
     table = numba.types.CPointer(numba.types.voidptr)
     return numba.cfunc(numba.types.int64(table, numba.types.int64, numba.types.int64), error_model="numpy")(entry)
 
 
-def _fingerprint() -> str:
-    """Digest of everything the object code depends on."""
+def fingerprint(functions: Iterable[Function], records: Iterable[np.dtype], *, also: Iterable[str]) -> str:
+    """Digest of everything the object code of these functions on these records depends on; `also` are source files."""
     import llvmlite.binding as llvm
 
     digest = hashlib.sha256()
-    for source in sorted({inspect.getfile(function) for function in KERNEL_FUNCTIONS} | {__file__}):
+    for source in sorted({inspect.getfile(function) for function in functions} | set(also)):
         digest.update(Path(source).read_bytes())
     facts = (
-        [dtype.descr for dtype in (UNIT, AXIS, PLANT, SEGMENT, WATCH, SCOPE)],
+        [dtype.descr for dtype in records],
         [version(name) for name in ("numba", "llvmlite", "numpy")],
         sys.version,
         platform.machine(),

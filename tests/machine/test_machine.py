@@ -132,7 +132,7 @@ PROBLEMS = [
     ("[wires]\nanalog = [1, 2, 3]", "wires.analog.2", "3", "a number >= 0.0 and <= 2.5"),
     ("[io]\ninputs = 7", "io.inputs", "7", "8 or 16 or 24"),
     ("axis1 = [1]", "axis1", "[1]", "a table"),
-    ("[axis3]", "axis3", "a table", "keys identity"),
+    ("[axis9]", "axis9", "a table", "keys identity"),
     ("[axis1.plant]\nkind = 'piston'", "axis1.plant.kind", "'piston'", "'velocity_drive'"),
     ("[axis1.plant]\ninertia_kg_m2 = 1", "axis1.plant.kind", "nothing", "'velocity_drive'"),
     (
@@ -163,7 +163,7 @@ PROBLEMS = [
     ("[defaults]\nECHO = {a = 1}", "defaults.ECHO", "{'a': 1}", "a number, a text, or a list"),
     # keys of commands that are not part of this machine yet
     ("[following]\npredictor = 1", "following", "a table", "keys identity"),
-    ("[rmc]\nport = 502", "rmc", "a table", "keys identity"),
+    ("[rcm]\nport = 502", "rcm", "a table", "keys identity"),
 ]
 
 
