@@ -58,7 +58,7 @@ def url_of(server: Served, kind: str) -> str:
 @pytest.mark.parametrize("kind", ["pty", "socket"])
 def test_pyserial(server: Served, kind: str) -> None:
     assert position(run(str(EXAMPLES / "pyserial_move.py"), url_of(server, kind))) == pytest.approx(8000, abs=50)
-    assert server.signals["axis1.position.commanded"] == pytest.approx(8000, abs=2)
+    assert server.signals["axis1.position.commanded"] == pytest.approx(8000, abs=50), "it follows a drive that is off"
 
 
 def test_pyserial_tells_what_the_unit_refuses(server: Served) -> None:
