@@ -14,7 +14,7 @@ from msgspec import inspect
 from documentation.markdown import anchor, code, page, plain, table
 from emulator.fidelity import NOT_YET, WORDS
 from emulator.machine import Machine
-from emulator.plant_tables import KINDS, PRESETS
+from emulator.plant_tables import PRESETS
 from emulator.recording.machine_text import toml_key, toml_value
 from emulator.reload import takes_effect
 
@@ -59,14 +59,8 @@ default is what the unit does; a design choice is no claim about the unit, but w
 
 
 def tables() -> list[TableOfKeys]:
-    """Every table of the file, axis 2 left out (it is as axis 1), a plant table for each kind."""
-    found = list(_tables(Machine.default(), "", "what is true of the whole unit"))
-    plants = [
-        TableOfKeys("axis1.plant", f"{_sentence(kind)} of axis 1", _keys(built(), "axis1.plant."), kind)
-        for kind, built in KINDS.items()
-    ]
-    place = next(place for place, each in enumerate(found) if each.path == "axis1.encoder")
-    return [*found[:place], *plants, *found[place:]]
+    """Every table of the file, axis 2 left out (it is as axis 1); of a table that has kinds, one for each kind."""
+    return list(_tables(Machine.default(), "", "what is true of the whole unit"))
 
 
 def example(each: TableOfKeys) -> str:
@@ -81,22 +75,31 @@ def _assignment(key: Key) -> str:
     return f"{toml_key(key.name)} = {toml_value(msgspec.to_builtins(key.default))}"
 
 
-def _sentence(kind: str) -> str:
-    return kind.replace("_", " ")
-
-
 def _tables(value: msgspec.Struct, path: str, what: str) -> Iterator[TableOfKeys]:
     """A table and those within it, depth first."""
     info = inspect.type_info(type(value))
     assert isinstance(info, inspect.StructType)
     prefix = f"{path}." if path else ""
-    keys = _keys(value, prefix)
-    if keys:
+    if keys := _keys(value, prefix):
         yield TableOfKeys(path, what, keys)
     for field in info.fields:
-        inner = getattr(value, field.name)
-        if isinstance(inner, msgspec.Struct) and field.name not in ("plant", "axis2"):
-            yield from _tables(inner, prefix + field.encode_name, _about(field.type)[0])
+        inner, inner_path = getattr(value, field.name), prefix + field.encode_name
+        if kinds := _kinds(field.type):
+            yield from (_of_kind(each, inner_path, _about(field.type)[0]) for each in kinds)
+        elif isinstance(inner, msgspec.Struct) and field.name != "axis2":
+            yield from _tables(inner, inner_path, _about(field.type)[0])
+
+
+def _kinds(node: inspect.Type) -> list[inspect.StructType]:
+    """The tables a field may hold, where its `kind` says which; none for other fields."""
+    node = _bare(node)
+    members = node.types if isinstance(node, inspect.UnionType) else ()
+    return [each for each in members if isinstance(each, inspect.StructType) and each.tag is not None]
+
+
+def _of_kind(node: inspect.StructType, path: str, what: str) -> TableOfKeys:
+    kind = str(node.tag)
+    return TableOfKeys(path, f"{what}: {kind.replace('_', ' ')}", _keys(node.cls(), f"{path}."), kind)
 
 
 def _keys(value: msgspec.Struct, prefix: str) -> tuple[Key, ...]:
@@ -105,7 +108,7 @@ def _keys(value: msgspec.Struct, prefix: str) -> tuple[Key, ...]:
     return tuple(
         _key(field, getattr(value, field.name), prefix)
         for field in info.fields
-        if not isinstance(getattr(value, field.name), msgspec.Struct)
+        if not isinstance(getattr(value, field.name), msgspec.Struct) and not _kinds(field.type)
     )
 
 

@@ -71,11 +71,8 @@ class TestRefusals:
 
 class TestMachineFile:
     def test_every_key_of_the_ledger_is_there(self) -> None:
-        listed = {key.path for each in TABLES if not each.kind for key in each.keys}
-        listed |= {
-            key.path.replace("plant.", f"plant ({each.kind}).") for each in TABLES if each.kind for key in each.keys
-        }
-        listed |= {key.path for each in TABLES if each.kind == "velocity_drive" for key in each.keys}
+        listed = {key.path for each in TABLES for key in each.keys}
+        listed |= {f"{each.path} ({each.kind}).{key.name}" for each in TABLES for key in each.keys}
         in_ledger = {entry.key for entry in entries() if not entry.key.startswith("defaults.")}
         assert in_ledger <= listed
 
@@ -84,8 +81,15 @@ class TestMachineFile:
         machine = Machine.parse(machine_file.example(table))
         if not table.kind:
             assert machine == Machine.default()
-        else:
-            assert machine.axis1 == msgspec.structs.replace(Machine.default().axis1, plant=KINDS[table.kind]())
+            return
+        name = table.path.removeprefix("axis1.")
+        given = getattr(machine.axis1, name)
+        assert given == type(given)()
+        assert type(given).__struct_config__.tag == table.kind
+        assert machine.axis1 == msgspec.structs.replace(Machine.default().axis1, **{name: given})
+
+    def test_every_kind_of_plant_has_a_table(self) -> None:
+        assert [each.kind for each in TABLES if each.path == "axis1.plant"] == list(KINDS)
 
     def test_every_key_says_what_it_is_and_how_we_know(self) -> None:
         assert [key.path for each in TABLES for key in each.keys if not (key.what and key.known and key.type)] == []
