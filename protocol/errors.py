@@ -46,11 +46,27 @@ NEST_LEVEL_TOO_DEEP = "NEST LEVEL TOO DEEP"
 OUTPUT_BIT_USED_AS_OUTFNC = "OUTPUT BIT USED AS OUTFNC"
 ALREADY_DEFINED_FOR_THUMBWHEELS = "ALREADY DEFINED FOR THUMBWHEELS"
 DEFINED_WITH_ANOTHER_TW = "WARNING: DEFINED WITH ANOTHER TW"
+NO_PATH_SEGMENTS_DEFINED = "NO PATH SEGMENTS DEFINED"
+NOT_DEFINING_A_PATH = "NOT DEFINING A PATH"
+NOT_ALLOWED_IN_PATH = "NOT ALLOWED IN PATH"
+PATH_NOT_COMPILED = "PATH NOT COMPILED"
+PATH_ALREADY_MOVING = "PATH ALREADY MOVING"
+AXES_NOT_READY = "AXES NOT READY"
 
 
 def invalid_data_field(number: int) -> CommandError:
     """A field out of range; ``number`` counts comma fields from 1 (the axis number with an axis prefix)."""
     return CommandError(f"{INVALID_DATA}-FIELD {number}")
+
+
+def invalid_conditions(axis: int) -> CommandError:
+    """What one axis is to do does not fit its state, or what it did before."""
+    return CommandError(f"{INVALID_CONDITIONS}-AXIS {axis}")
+
+
+def ends_moving(axis: int) -> CommandError:
+    """PCOMP of a profile whose last preset segment does not end at rest."""
+    return CommandError(f"ERROR:  MOTION ENDS IN NON-ZERO VELOCITY-AXIS {axis}")
 
 
 def s_curve_acceleration(axis: int) -> CommandError:
