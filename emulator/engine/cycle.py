@@ -17,6 +17,7 @@ from .events import (
     EVENT_HARD_LIMIT,
     EVENT_MOVE_ENDED,
     EVENT_POSITION_ERROR,
+    EVENT_ROWS_LOW,
     EVENT_SETTLE_TIMEOUT,
     EVENT_SETTLED,
     EVENT_SOFT_LIMIT,
@@ -49,6 +50,7 @@ from .status import (
     axis_status,
     in_target_zone,
 )
+from .streaming import NO_REFILL
 from .travel import CAPTURE_NONE, capture, operate_switches
 from .watches import check_watches
 
@@ -70,7 +72,7 @@ def hold_still(axis: Record) -> None:
 @seldom
 def end_profile(axis: Record, now_ns: int) -> None:
     """Arrive exactly at the profile's end and start waiting for the target zone."""
-    axis["commanded_counts"] = math.floor(axis["profile_end_counts"] + 0.5)
+    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(axis["profile_end_counts"] + 0.5)
     hold_still(axis)
     axis["pending_events"] |= EVENT_MOVE_ENDED
     axis["settling"] = axis["target_zone_enable"]
@@ -90,13 +92,16 @@ def follow_profile(axis: Record, segments: Records, now_ns: int) -> None:
     while index + 1 < axis["segment_count"] and elapsed_s >= segments[first + index + 1]["start_s"]:
         index += 1
     axis["segment_index"] = index
+    if index >= axis["refill_index"]:
+        axis["refill_index"] = NO_REFILL
+        axis["pending_events"] |= EVENT_ROWS_LOW
     segment = segments[first + index]
     t = elapsed_s - segment["start_s"]
     half_rate = 0.5 * segment["jerk"] * t
     velocity = segment["velocity"]
     acceleration = segment["acceleration"]
     position = segment["position"] + t * (velocity + t * (0.5 * acceleration + half_rate / 3.0))
-    axis["commanded_counts"] = math.floor(position + 0.5)
+    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(position + 0.5)
     axis["commanded_velocity"] = velocity + t * (acceleration + half_rate)
     axis["commanded_acceleration"] = acceleration + segment["jerk"] * t
 
