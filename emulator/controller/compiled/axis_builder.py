@@ -59,8 +59,8 @@ class AxisBuilder(Generic[Move, Piece, Speed]):
             raise CommandError(NEST_LEVEL_TOO_DEEP)
         self._open.append(_Open(Loop(passes), self.speed, self.position))
 
-    def close_loop(self) -> None:
-        """PLN.  Raises Unsteady.
+    def close_loop(self, *, keep: bool) -> None:
+        """PLN; ``keep`` False if the axis has no segments yet, whose loop a bare PLOOP has opened.  Raises Unsteady.
 
         Raises:
             CommandError: INVALID CONDITIONS FOR COMMAND-AXIS n, there is no loop to close.
@@ -68,6 +68,8 @@ class AxisBuilder(Generic[Move, Piece, Speed]):
         if not self._open:
             raise invalid_conditions(self._axis)
         opened = self._open.pop()
+        if not keep:
+            return
         planned, self.speed = plan_loop(self._planner, opened.loop, opened.speed)
         self.position = opened.position + planned.travel
         if self._open:

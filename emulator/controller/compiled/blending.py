@@ -101,6 +101,8 @@ def _reached(move: TimedMove, entry: float) -> float:
 def _pieces(segments: Segments, distance: float | None) -> tuple[StreamedSegment, ...]:
     """Pieces that each begin where the one before ends; the last one makes up for all rounding of `distance`."""
     timed = [segment for segment in segments if segment.duration_s > 0.0]
+    if not timed:
+        return ()
     begins = [round(segment.position * PARTS_PER_COUNT) for segment in timed]
     end = round((_end(timed) if distance is None else distance) * PARTS_PER_COUNT)
     return tuple(
@@ -110,8 +112,6 @@ def _pieces(segments: Segments, distance: float | None) -> tuple[StreamedSegment
 
 
 def _end(segments: list[Segment]) -> float:
-    if not segments:
-        return 0.0
     last = segments[-1]
     t = last.duration_s
     return last.position + t * (last.velocity + t * (last.acceleration / 2.0 + t * last.jerk / 6.0))

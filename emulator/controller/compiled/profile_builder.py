@@ -65,10 +65,8 @@ class ProfileBuilder:
         """The whole program."""
         profiles = []
         for axis_index, axis in sorted(self._axes.items()):
-            with refusals(axis_index):
-                profile = axis.finish()
             if axis_index in self._with_segments:
-                profiles.append(profile)
+                profiles.append(axis.finish())
         return CompiledProfile(tuple(profiles), self._segments)
 
     def _axis(self, axis_index: int) -> ProfileAxis:
@@ -102,7 +100,7 @@ class ProfileBuilder:
             named = [axis_index for axis_index in named if self._axis(axis_index).builder.in_loop] or named
         for axis_index in named:
             with refusals(axis_index):
-                self._axis(axis_index).builder.close_loop()
+                self._axis(axis_index).builder.close_loop(keep=axis_index in self._with_segments)
             self._segments += SEGMENTS_EACH
 
     def _switch_outputs(self, command: Command) -> None:
