@@ -17,8 +17,8 @@ from emulator.controller.scaling import (
     RATE_SCALES,
     VELOCITY_SCALES,
     Quantity,
+    distance_range,
     in_user_units,
-    largest_distance,
     largest_velocity,
     places_in_force,
 )
@@ -404,9 +404,8 @@ class Settings:
         places = self.places_of(row, index, allowed.places)
         factor = self.factor(scale, index)
         if scale in DISTANCE_SCALES:
-            largest = largest_distance(places)
-            low = -largest if allowed.minimum is not None and allowed.minimum < 0 else Decimal(0)
-            return Range(low, min(largest, allowed.maximum or largest), places)
+            own_range = row.fields.number_format == "shortest" and not self.scaled
+            return allowed if own_range else distance_range(allowed, factor, places)
         if scale in VELOCITY_SCALES:
             return Range(Decimal(0), largest_velocity(factor, self.encoder_resolution(index)), places)
         low, high = self._acceleration_range
@@ -416,7 +415,7 @@ class Settings:
         return self.places_of(row, index, places_of(row))
 
     def places_of(self, row: CommandRow, index: int, unscaled_places: int) -> int:
-        """Decimals a field of this command has now; ratios keep their own while unscaled."""
+        """Decimals a field of this command has now; ratios and master distances keep their own while unscaled."""
         scale = row.fields.scale
         if scale is None or (row.fields.number_format == "shortest" and not self.scaled):
             return unscaled_places
