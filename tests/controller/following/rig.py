@@ -10,7 +10,6 @@ from collections.abc import Iterable, Iterator
 
 from tests.controller.session import SYSTEM_NS, S, Session
 
-
 ARRIVE = (0,) * 5
 """System updates after which a slave has arrived behind a master that stopped: two to get there, two for prediction to
 see that it has stopped, and one to begin with."""

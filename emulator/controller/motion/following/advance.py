@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.motion.following.assignment import in_ratio_move, is_following
+from emulator.controller.motion.following.assignment import at_ratio, in_ratio_move, is_following
 from emulator.controller.motion.following.fields import given_counts
 from emulator.controller.motion.following.go_wait import FollowingWait
 from emulator.controller.motion.following.moves import RatioMove
@@ -41,7 +41,7 @@ def advance_refusal(controller: Controller, axis_index: int) -> str:
     moves = controller.ratio_moves
     if moves.preset(axis_index) or moves.advancing(axis_index) or status & FollowingStatus.SHIFTING.mask:
         return NOT_VALID_DURING_FOLLOWING_MOTION
-    return ""
+    return "" if at_ratio(controller, axis_index) else NOT_VALID_DURING_RAMP
 
 
 def plan_advance(base: Fraction, advance: RatioSegments) -> RatioSegments:

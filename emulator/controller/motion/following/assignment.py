@@ -53,6 +53,12 @@ def in_ratio_move(controller: Controller, axis_index: int) -> bool:
     return bool(controller.engine.following_status(axis_index) & FollowingStatus.SLAVE_IN_RATIO_MOVE.mask)
 
 
+def at_ratio(controller: Controller, axis_index: int) -> bool:
+    """Whether the slave is at a constant ratio; not before its move has been taken up by a system update."""
+    status = controller.engine.following_status(axis_index)
+    return bool(status & FollowingStatus.AT_RATIO.mask) and not status & FollowingStatus.RATIO_CHANGING.mask
+
+
 def _master(controller: Controller, value: int) -> Master | None:
     return read_master(value, axes=controller.settings.axes, ani_fitted=controller.machine.options.ani)
 

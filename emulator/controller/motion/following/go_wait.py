@@ -11,14 +11,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from emulator.controller.motion.following.assignment import is_following
+from emulator.controller.motion.following.assignment import at_ratio, in_ratio_move, is_following
 from emulator.controller.waits import MotionWait
 from protocol.status import FollowingStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
 
-_RAMP_UNDER_WAY = FollowingStatus.RATIO_CHANGING.mask | FollowingStatus.MASTER_MOVING.mask
+_WATCHED = (
+    FollowingStatus.SLAVE_IN_RATIO_MOVE.mask
+    | FollowingStatus.RATIO_CHANGING.mask
+    | FollowingStatus.AT_RATIO.mask
+    | FollowingStatus.MASTER_MOVING.mask
+    | FollowingStatus.SHIFTING.mask
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,16 +38,31 @@ class FollowingWait(MotionWait):
         engine = controller.engine
         # the plain form of super() does not survive a dataclass with slots
         ended = MotionWait.over(self, controller)
-        ramping = any(engine.following_status(axis) & _RAMP_UNDER_WAY == _RAMP_UNDER_WAY for axis in self.slaves)
-        settling = any(engine.is_settling(axis) for axis in self.slaves)
         shifting = any(engine.following_status(axis) & FollowingStatus.SHIFTING.mask for axis in self.shifting)
-        if ended and not (ramping or settling or shifting):
+        if ended and not shifting and not any(_changes(controller, axis) for axis in self.slaves):
             return True
-        for axis_index in self.slaves:
-            engine.watch_following(axis_index, _RAMP_UNDER_WAY)
-        for axis_index in self.shifting:
-            engine.watch_following(axis_index, FollowingStatus.SHIFTING.mask)
+        for axis_index in (*self.slaves, *self.shifting):
+            engine.watch_following(axis_index, _WATCHED)
+            if controller.ratio_moves.advancing(axis_index):
+                controller.alarms.at(engine.next_system_update_ns, _look_again)
         return False
+
+
+def _changes(controller: Controller, axis_index: int) -> bool:
+    """Whether a slave's move has not been taken up by a system update, a moving master is changing its ratio, or it has
+    come to rest and is not yet in its zone."""
+    engine = controller.engine
+    if not in_ratio_move(controller, axis_index):
+        return engine.is_settling(axis_index)
+    status = engine.following_status(axis_index)
+    if not status & (FollowingStatus.RATIO_CHANGING.mask | FollowingStatus.AT_RATIO.mask):
+        return True
+    on_its_way = not at_ratio(controller, axis_index) or controller.ratio_moves.advancing(axis_index)
+    return on_its_way and bool(status & FollowingStatus.MASTER_MOVING.mask)
+
+
+def _look_again() -> None:
+    """The alarm alone makes the unit look: no status bit tells the end of an advance that has no ramps."""
 
 
 def motion_wait(controller: Controller, axes: Sequence[int]) -> MotionWait:

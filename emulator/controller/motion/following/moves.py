@@ -10,7 +10,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-from emulator.controller.motion.following.assignment import in_ratio_move
+from emulator.controller.motion.following.assignment import at_ratio, in_ratio_move
 from emulator.controller.motion.following.ratio import master_counts, ratio_in_force
 from emulator.controller.motion.targets import preset_target
 from emulator.engine import DistanceMismatch, RatioSegments, plan_ratio_change, plan_ratio_preset
@@ -85,6 +85,8 @@ def _check_under_way(controller: Controller, axis_index: int) -> None:
         raise CommandError(NOT_VALID_DURING_RAMP)
     if preset or status & FollowingStatus.SHIFTING.mask or controller.ratio_moves.advancing(axis_index):
         raise CommandError(NOT_VALID_DURING_FOLLOWING_MOTION)
+    if not at_ratio(controller, axis_index):
+        raise CommandError(NOT_VALID_DURING_RAMP)
 
 
 def plan_move(controller: Controller, axis_index: int) -> RatioSegments:

@@ -10,7 +10,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.motion.following.assignment import in_ratio_move, is_following
+from emulator.controller.motion.following.assignment import at_ratio, in_ratio_move, is_following
 from emulator.controller.motion.following.fields import given_counts, given_numbers
 from emulator.controller.motion.following.go_wait import FollowingWait
 from emulator.controller.motion.go import allow_motion, check_ready, check_s_curve, ramps
@@ -54,6 +54,8 @@ def shift_refusal(controller: Controller, axis_index: int) -> str:
     moves = controller.ratio_moves
     if preset_shift or moves.preset(axis_index) or moves.advancing(axis_index):
         return NOT_VALID_DURING_FOLLOWING_MOTION
+    if in_ratio_move(controller, axis_index) and not at_ratio(controller, axis_index):
+        return NOT_VALID_DURING_RAMP
     return ""
 
 
