@@ -9,6 +9,7 @@ from emulator.controller.compiled import commands as compiled_commands
 from emulator.controller.compiled import profile_builder
 from emulator.controller.controller import Controller
 from emulator.controller.motion import gain_sets, go, homing, jogging, joystick, limits, servo, stopping
+from emulator.controller.motion.following import advance, assignment, cycles, sampling, shifts
 from emulator.controller.output import Output
 from emulator.controller.programs import debugging, flow, listings, on_conditions, program_select
 from emulator.controller.programs import store as program_store
@@ -31,6 +32,7 @@ COMMAND_MODULES = (
     *(communications, faults, line, reports, timing),
     *(compiled_commands, profile_builder),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
+    *(advance, assignment, cycles, sampling, shifts),
     *(debugging, flow, listings, on_conditions, program_select, program_store),
     *(data_programs, reading, timers, variable_store, writing),
     *(analog, input_effects, input_functions, inputs, output_functions, output_on_position, outputs),

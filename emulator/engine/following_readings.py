@@ -14,6 +14,7 @@ from .readings import ACTIVE, COMMANDED, OFFSET, axis_word
 
 _COUNTS, _CYCLE, _NUMBER = axis_word("master_counts"), axis_word("cycle_counts"), axis_word("cycle_number")
 _MASTER_VELOCITY = axis_word("master_velocity")
+_RATIO_COUNT, _RATIO_INDEX = axis_word("ratio_count"), axis_word("ratio_index")
 _SHIFTING, _SHIFT = axis_word("shift_active"), axis_word("shift_counts")
 
 
@@ -31,6 +32,11 @@ class FollowingReadings(FeedbackInputs):
     def is_held(self, axis_index: int) -> bool:
         """Whether a ratio move waits for the master position it is to begin at."""
         return bool(self.following_status(axis_index) & HELD)
+
+    def ratio_pieces_left(self, axis_index: int) -> int:
+        """Pieces of the ratio move still to come after the one the master is in; 0 in the last."""
+        ints = self._ints[axis_index]
+        return ints[_RATIO_COUNT] - ints[_RATIO_INDEX] - 1
 
     def master_counts(self, axis_index: int) -> int:
         """Master travel since the master was assigned, whatever its cycles, counts."""

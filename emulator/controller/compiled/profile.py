@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 from emulator.controller.compiled.marks import Held, Marks, Over
-from emulator.controller.motion.go import may_start
+from emulator.controller.motion.go import allow_motion
 from emulator.controller.wires.outputs import switch_outputs
 from protocol.errors import AXES_NOT_READY, CommandError
 
@@ -73,7 +73,9 @@ class CompiledProfile:
         for profile in self._profiles:
             if profile.follows != is_slave(controller.settings, profile.axis_index):
                 raise CommandError(AXES_NOT_READY)
-        free = [profile for profile in self._profiles if may_start(controller, profile.axis_index, profile.direction)]
+        free = [
+            profile for profile in self._profiles if allow_motion(controller, profile.axis_index, profile.direction)
+        ]
         return ProfileRun({profile.axis_index: AxisRun(controller, profile) for profile in free})
 
 

@@ -41,7 +41,9 @@ class Pausing:
         stop_axes(controller, moving, "AD")
 
     def _resumable(self, axis_index: int) -> bool:
-        """Homing, jogging, the joystick and compiled motion do not go on after a pause (assumed)."""
+        """Homing, jogging, the joystick, Following and compiled motion do not go on after a pause (assumed)."""
+        if self._controller.engine.is_following(axis_index):
+            return False
         by_hand = any(self._controller.settings.flag(mode, axis_index) for mode in ("JOG", "JOY"))
         if self._controller.compiled.moves(axis_index):
             return False
