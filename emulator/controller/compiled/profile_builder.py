@@ -15,7 +15,7 @@ from emulator.controller.compiled.profile_axis import SEGMENTS_EACH, ProfileAxis
 from emulator.controller.compiled.ratio_axis import RatioAxis
 from emulator.controller.compiled.timed_axis import TimedAxis
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.motion.go import check_s_curve_of, named_axes
+from emulator.controller.motion.go import named_axes
 from emulator.controller.wires.outputs import output_pattern
 from emulator.engine.ratio_profile import DistanceMismatch
 from protocol.command import Command
@@ -82,7 +82,6 @@ class ProfileBuilder:
 
     def _gobuf(self, command: Command) -> None:
         for axis_index in self._named(command):
-            check_s_curve_of(self._settings, axis_index)
             axis = self._axis(axis_index)
             if self._outputs is not None:
                 axis.switch_outputs(self._outputs)
