@@ -33,7 +33,6 @@ _OTHER_PRODUCT: Final = "not a command of the OEM6250; COMMAND NOT IMPLEMENTED i
 
 ABSENT_GROUPS: Final[Mapping[str, str]] = {
     "contouring": _MOTION,
-    "compiled": _MOTION,
     "registration": _MOTION,
 }
 """Groups of which absent rows have one reason."""
