@@ -6,9 +6,10 @@ profiles it runs.
 
 from .control_law import Gains, UnitFactors
 from .encoder import AnalogSensor, EncoderTraits, EncoderWiring
+from .encoder_motion import EncoderMotion
 from .engine import Engine
 from .events import ENABLE_MASK, Event, Relation, Signal, Wire, wire_mask
-from .following_axes import MasterSource, NoMaster
+from .following_axes import MasterMeasurement, MasterSource, NoMaster
 from .machinery import AxisHardware
 from .plants import ElasticCoupling, HydraulicCylinder, Plant, PlantError, TorqueDrive, VelocityDrive
 from .profile import (
@@ -45,6 +46,7 @@ __all__ = [
     "DistanceMismatch",
     "DriveShutDown",
     "ElasticCoupling",
+    "EncoderMotion",
     "EncoderTraits",
     "EncoderWiring",
     "Engine",
@@ -52,6 +54,7 @@ __all__ = [
     "Gains",
     "HydraulicCylinder",
     "InvalidSCurve",
+    "MasterMeasurement",
     "MasterSource",
     "NoMaster",
     "Plant",
