@@ -41,7 +41,7 @@ ABSENT_GROUPS: Final[Mapping[str, str]] = {
 
 ABSENT_ROWS: Final[Mapping[str, str]] = {
     "TRANS": "translation mode needs the computer bus of other products; only its default is accepted",
-    **dict.fromkeys(("GOL", "GOWHEN", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
+    **dict.fromkeys(("GOL", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
     **dict.fromkeys(("PMAS", "PSLV", "PSHF", "NMCY", "VMAS", "FS"), _MOTION),
     **dict.fromkeys(("TPCA", "TPCC", "TPCE", "TPMAS", "TPSLV", "TPSHF", "TNMCY", "TVMAS", "TFS", "TFSF"), _MOTION),
 }

@@ -43,8 +43,11 @@ from .watches import WATCH_SLOTS
 SHORT_RUN_SAMPLES = 40
 """Runs of fewer samples keep the interpreter lock: handing it over would cost more than the samples."""
 
-FIRST_LASTING_WATCH = WATCH_SLOTS - 2
-"""Value watches from this slot on outlive `clear_watches`: they belong to outputs on position, one an axis."""
+FIRST_LASTING_WATCH = WATCH_SLOTS - 4
+"""Value watches from this slot on outlive `clear_watches`: first those of outputs on position, one an axis."""
+
+GOWHEN_WATCH = FIRST_LASTING_WATCH + 2
+"""Then those of starts that wait for a position, one an axis."""
 
 DEFAULT_POSITION_ERROR_LIMIT = 4000
 """SMPER at power-up, counts. Assumed, medium confidence."""
@@ -381,7 +384,7 @@ class Engine(FeedbackInputs):
     ) -> None:
         """Report VALUE at the first system update at which `signal relation threshold` holds, then disarm.
 
-        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are 8 slots.
+        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are WATCH_SLOTS slots.
         """
         if not 0 <= slot < WATCH_SLOTS:
             raise ValueError(f"watch slots are 0 to {WATCH_SLOTS - 1}, not {slot}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from decimal import ROUND_DOWN, Decimal
+from functools import partial
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles, require_rest
@@ -49,7 +50,7 @@ def go(controller: Controller, command: Command) -> Lines:
         check_s_curve(controller, axis_index)
     controller.faults.clear(CLEARED_BY_GO)
     for axis_index in axes:
-        start(controller, axis_index)
+        controller.held_starts.start((axis_index,), partial(start, controller, axis_index))
     if not controller.settings.flag("COMEXC") and axes:
         controller.interpreter.wait_for(MotionWait(tuple(axes)))
     return None
