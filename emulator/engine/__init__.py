@@ -24,12 +24,15 @@ from .profile import (
 )
 from .rates import RATES, RateTable, ServoRates, rates_for
 from .travel import Travel
+from .trigger_capture import MarkSensor
+from .trigger_inputs import CapturedPositions
 
 __all__ = [
     "ENABLE_MASK",
     "RATES",
     "AnalogSensor",
     "AxisHardware",
+    "CapturedPositions",
     "DriveShutDown",
     "ElasticCoupling",
     "EncoderTraits",
@@ -39,6 +42,7 @@ __all__ = [
     "Gains",
     "HydraulicCylinder",
     "InvalidSCurve",
+    "MarkSensor",
     "Plant",
     "PlantError",
     "RateTable",

@@ -115,6 +115,7 @@ class Engine(FeedbackInputs):
 
     def _power_up(self, axis_index: int, hardware: AxisHardware) -> None:
         self._connect(axis_index, hardware)
+        self.connect_trigger(axis_index, 0)
         self._write(
             axis_index, position_error_limit=DEFAULT_POSITION_ERROR_LIMIT, output_limit_v=10.0, hard_limit_enable=3
         )
@@ -133,6 +134,7 @@ class Engine(FeedbackInputs):
             self._write(axis_index, previous_feedback_counts=ints[ENCODER], system_feedback_counts=ints[ENCODER])
             self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0, capture_mode=Capture.NONE)
         self.clear_watches()
+        self.forget_captures()
 
     # Time
 

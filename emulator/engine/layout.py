@@ -43,7 +43,41 @@ UNIT_FIELDS: Fields = (
     ("outputs", INT, "programmable outputs that are on, bit 0 = output 1, as the controller last set them"),
     ("armed_watches", INT, "value watches still armed"),
     ("fired_watches", INT, "value watches that have fired, bit = slot, since Python last asked"),
+    ("trigger_work", INT, "why samples are looked between, bits of `trigger_capture`; 0 = no reason"),
 )
+
+
+def _trigger_fields() -> Fields:
+    """What happens between two samples: `trigger_capture`. Trigger n is in the record of axis n."""
+    positions = {"encoder": "encoder", "commanded": "commanded", "ani": "ANI"}
+    return (
+        ("trigger_mask", INT, "bit of the axis's trigger in `inputs`"),
+        ("trigger_armed", INT, "1 = its active edge latches positions (INFNC-H)"),
+        ("trigger_active_level", INT, "1 = grounded is active (INLVL0), 0 = open"),
+        ("trigger_lockout_ns", INT, "TRGLOT, ns"),
+        ("trigger_locked_until_ns", INT, "edges before this time are ignored, ns"),
+        ("trigger_edge_ns", INT, "time of an edge that the next sample captures, ns; -1 = none"),
+        ("captured_edge_ns", INT, "time of the last edge captured, ns; -1 = none"),
+        ("captures", INT, "edges captured since power-up"),
+        ("sensor_fitted", INT, "1 = a sensor at the trigger sees marks"),
+        ("sensor_axis", INT, "axis the marks are on"),
+        ("sensor_operated", INT, "bit of `inputs` that a mark at the sensor has changed over"),
+        ("mark_at_rev", FLOAT, "true position of a mark's beginning, rev"),
+        ("mark_every_rev", FLOAT, "from mark to mark, rev; 0 = one mark"),
+        ("mark_width_rev", FLOAT, "width of a mark, rev"),
+        ("compare_direction", INT, "which way the encoder is to come to compare_counts, +1 or -1; 0 = not waited for"),
+        ("compare_counts", INT, "raw encoder position waited for, counts"),
+        ("compare_passed_ns", INT, "when it was passed, ns; -1 = not yet"),
+        ("before_rev", FLOAT, "true position of the shaft at the last sample, rev"),
+        ("before_load_rev", FLOAT, "position of the load at the last sample, rev"),
+        ("before_rev_s", FLOAT, "true velocity at the last sample, rev/s"),
+        ("before_reading", INT, "encoder_reading at the last sample"),
+        *((f"before_{key}_counts", INT, f"raw {name} position at the last sample") for key, name in positions.items()),
+        ("before_feedback_counts", INT, "raw feedback position at the last sample"),
+        *((f"own_{key}_capture", INT, f"raw {name} position, by its own trigger") for key, name in positions.items()),
+        *((f"other_{key}_capture", INT, "the same by the other axis's trigger") for key in positions),
+    )
+
 
 AXIS_FIELDS: Fields = (
     # drive and loop
@@ -161,6 +195,7 @@ AXIS_FIELDS: Fields = (
     ("load_velocity", FLOAT, "velocity of the load's inertia on a springy shaft, rev/s"),
     ("spool", FLOAT, "position of a cylinder's valve spool, V"),
     ("spool_rate", FLOAT, "its velocity over the valve's natural frequency, V"),
+    *_trigger_fields(),
 )
 
 
