@@ -35,15 +35,14 @@ ABSENT_GROUPS: Final[Mapping[str, str]] = {
     "contouring": _MOTION,
     "compiled": _MOTION,
     "following": _MOTION,
-    "registration": _MOTION,
 }
 """Groups of which absent rows have one reason."""
 
 ABSENT_ROWS: Final[Mapping[str, str]] = {
     "TRANS": "translation mode needs the computer bus of other products; only its default is accepted",
-    **dict.fromkeys(("GOL", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
+    **dict.fromkeys(("GOL",), _MOTION),
     **dict.fromkeys(("PMAS", "PSLV", "PSHF", "NMCY", "VMAS", "FS"), _MOTION),
-    **dict.fromkeys(("TPCA", "TPCC", "TPCE", "TPMAS", "TPSLV", "TPSHF", "TNMCY", "TVMAS", "TFS", "TFSF"), _MOTION),
+    **dict.fromkeys(("TPMAS", "TPSLV", "TPSHF", "TNMCY", "TVMAS", "TFS", "TFSF"), _MOTION),
 }
 """Absent rows of other groups, each with its reason."""
 
@@ -146,7 +145,7 @@ def _carried_out(row: CommandRow) -> bool:
     if row.name in dispatch.handled_names():
         return True
     plain = row.kind == "setting" and row.reply in dispatch.SETTING_REPLIES
-    return plain and row.name not in dispatch.NEEDS_ITS_OWN_HANDLER | dispatch.SWITCHES_WITHOUT_FUNCTION
+    return plain and row.name not in dispatch.SWITCHES_WITHOUT_FUNCTION
 
 
 def example_of(row: CommandRow) -> str:

@@ -30,6 +30,12 @@ class Reading(NamedTuple):
     places: int
 
 
+def _captured(trigger_index: int, name: str) -> Reading:
+    return Reading(
+        lambda engine, axis_index: getattr(engine.captured_positions(trigger_index, axis_index), name), "distance", 0
+    )
+
+
 READINGS = {
     "PC": Reading(Engine.commanded_position, "distance", 0),
     "PE": Reading(Engine.encoder_position, "distance", 0),
@@ -40,6 +46,11 @@ READINGS = {
     "DAC": Reading(Engine.dac_volts, None, VOLT_PLACES),
     "ANI": Reading(Engine.ani_volts, None, VOLT_PLACES),
     "PANI": Reading(Engine.ani_position, "distance", 0),
+    **{
+        f"{operand}{letter}": _captured(trigger_index, name)
+        for operand, name in (("PCE", "encoder"), ("PCC", "commanded"), ("PCA", "ani"))
+        for trigger_index, letter in enumerate("AB")
+    },
 }
 """The readings by operand name."""
 

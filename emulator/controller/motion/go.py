@@ -137,6 +137,7 @@ def start(controller: Controller, axis_index: int) -> None:
         engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
         return
+    controller.registration.watch(axis_index)
     in_zone = engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
     engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
     clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)

@@ -31,7 +31,8 @@ def stop_axes(controller: Controller, axes: Iterable[int], ramp: str) -> None:
 
 
 def brake(controller: Controller, axis_index: int, ramp: str) -> None:
-    """Bring an axis to rest, if it moves, at a deceleration setting (AD, LHAD, LSAD)."""
+    """Bring an axis to rest, if it moves, at a deceleration setting (AD, LHAD, LSAD); no trigger registers then."""
+    controller.registration.forget(axis_index)
     if controller.engine.is_moving(axis_index):
         controller.engine.start_profile(axis_index, stop_segments(controller, axis_index, ramp))
 
