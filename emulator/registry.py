@@ -275,7 +275,7 @@ def _trigger_signals(trigger_index: int, letter: str) -> list[Signal]:
         Signal(
             f"capture.{letter}.count",
             f"captures of trigger {letter} since power-up",
-            "",
+            "captures",
             lambda c: c.engine.capture_count(trigger_index),
         ),
     ]

@@ -123,7 +123,8 @@ def check_s_curve(controller: Controller, axis_index: int, family: str = "") -> 
 
 
 def start(controller: Controller, axis_index: int) -> None:
-    """Start one axis: nothing moves into an active limit, a target that cannot be reached stops the axis."""
+    """Start one axis, moving or not: nothing moves into an active limit; a preset move that cannot be had from the
+    present motion leaves that as it is, with AS bit 30 and ER bit 10 (assumed M)."""
     engine = controller.engine
     if controller.settings.flag("MC", axis_index):
         direction = 1 if controller.settings.counts("D", axis_index) >= 0 else -1
@@ -137,16 +138,36 @@ def start(controller: Controller, axis_index: int) -> None:
         engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
         return
-    controller.registration.watch(axis_index)
+    try:
+        segments = _profile(controller, axis_index, direction)
+    except TargetOvershot:
+        engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
+        controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
+        return
     in_zone = engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
     engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
     clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
     if in_zone:
         clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
+    if segments:
+        controller.registration.watch(axis_index)
+        engine.start_profile(axis_index, segments)
+
+
+def _profile(controller: Controller, axis_index: int, direction: int) -> Segments:
+    """The profile GO starts; none for a preset move that goes nowhere.
+
+    Raises:
+        TargetOvershot: the axis moves, and its target lies behind it or within its braking distance.
+    """
     if controller.settings.flag("MC", axis_index):
-        engine.start_profile(axis_index, _continuous(controller, axis_index, direction))
-    else:
-        _start_preset(controller, axis_index)
+        return _continuous(controller, axis_index, direction)
+    state = controller.engine.profile_state(axis_index)
+    target = preset_target(controller, axis_index)
+    velocity = float(controller.settings.counts("V", axis_index))
+    if velocity == 0 or (target == state.position and state.velocity == 0):
+        return ()
+    return plan_preset(state.position, state.velocity, target, velocity, *ramps(controller, axis_index))
 
 
 def preset_target(controller: Controller, axis_index: int) -> int:
@@ -158,22 +179,6 @@ def preset_target(controller: Controller, axis_index: int) -> int:
     if controller.settings.flag("MA", axis_index):
         return counts
     return controller.engine.commanded_position(axis_index) + counts
-
-
-def _start_preset(controller: Controller, axis_index: int) -> None:
-    engine = controller.engine
-    state = engine.profile_state(axis_index)
-    target = preset_target(controller, axis_index)
-    velocity = float(controller.settings.counts("V", axis_index))
-    if velocity == 0 or (target == state.position and state.velocity == 0):
-        return
-    try:
-        segments = plan_preset(state.position, state.velocity, target, velocity, *ramps(controller, axis_index))
-    except TargetOvershot:
-        engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
-        controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
-        segments = stop_segments(controller, axis_index, "AD")
-    engine.start_profile(axis_index, segments)
 
 
 def _continuous(controller: Controller, axis_index: int, direction: int) -> Segments:
