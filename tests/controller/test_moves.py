@@ -225,9 +225,6 @@ def test_pre_emptive_go_that_cannot_reach(target: int) -> None:
     session.ok("D0", "GO1")
     assert not session.axis_bit(30)
     assert not session.error_bit(10)
-    session.ok("D0", "GO1")
-    assert not session.axis_bit(30)
-    assert not session.error_bit(10)
 
 
 def test_velocity_zero_goes_nowhere() -> None:
