@@ -281,6 +281,19 @@ def _trigger_signals(trigger_index: int, letter: str) -> list[Signal]:
     ]
 
 
+def _passing_signal(axis_index: int) -> Signal:
+    def passed_s(controller: Controller) -> float:
+        passed_ns = controller.on_position[axis_index].passed_ns
+        return -1.0 if passed_ns is None else passed_ns / NS_PER_S
+
+    return Signal(
+        f"output_on_position.{axis_index + 1}.time",
+        f"when axis {axis_index + 1} last passed its output position, with an on-time; -1 = never",
+        "s",
+        passed_s,
+    )
+
+
 def describe_signals(controller: Controller) -> dict[str, Signal]:
     """Every signal a unit has, by name."""
     signals = {signal.name: signal for signal in UNIT_SIGNALS}
@@ -293,7 +306,8 @@ def describe_signals(controller: Controller) -> dict[str, Signal]:
     outputs = [_output_signal(number) for number in range(1, controller.output_functions.count + 1)]
     analog = [_analog_signal(channel) for channel in range(1, len(controller.wiring.analog_volts) + 1)]
     triggers = [each for index, letter in enumerate("ab") for each in _trigger_signals(index, letter)]
-    for signal in (*outputs, *analog, *triggers):
+    passings = [_passing_signal(axis_index) for axis_index in range(controller.settings.axes)]
+    for signal in (*outputs, *analog, *triggers, *passings):
         signals[signal.name] = signal
     return signals
 

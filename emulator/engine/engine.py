@@ -43,11 +43,9 @@ from .watches import WATCH_SLOTS
 SHORT_RUN_SAMPLES = 40
 """Runs of fewer samples keep the interpreter lock: handing it over would cost more than the samples."""
 
-FIRST_LASTING_WATCH = WATCH_SLOTS - 4
-"""Value watches from this slot on outlive `clear_watches`: first those of outputs on position, one an axis."""
-
-GOWHEN_WATCH = FIRST_LASTING_WATCH + 2
-"""Then those of starts that wait for a position, one an axis."""
+FIRST_LASTING_WATCH = WATCH_SLOTS - 2
+"""Value watches from this slot on outlive `clear_watches`: they belong to starts that wait for a position (GOWHEN), one
+an axis."""
 
 DEFAULT_POSITION_ERROR_LIMIT = 4000
 """SMPER at power-up, counts. Assumed, medium confidence."""

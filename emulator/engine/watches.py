@@ -10,7 +10,7 @@ from .encoder import ANI_COUNTS_PER_VOLT
 from .events import EVENT_VALUE
 from .kernels import Record, Records, kernel, seldom
 
-WATCH_SLOTS = 10
+WATCH_SLOTS = 8
 
 
 @kernel

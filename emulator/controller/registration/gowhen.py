@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from emulator.controller.dispatch import Lines, handles
 from emulator.controller.readings import READINGS
 from emulator.engine import Signal
-from emulator.engine.engine import GOWHEN_WATCH
+from emulator.engine.engine import FIRST_LASTING_WATCH
 from protocol.command import Command
 from protocol.condition import Operand, Relation, parse_condition
 from protocol.errors import COMMAND_NOT_IMPLEMENTED, INCORRECT_AXIS, INCORRECT_DATA, CommandError, invalid_data_field
@@ -61,7 +61,7 @@ class PositionReached:
         """The servo watches it, in the slot of the axis that waits."""
         if self.sign == "=":
             self.sign = ">=" if self._present(controller) < self.counts else "<="
-        slot = GOWHEN_WATCH + axis_index
+        slot = FIRST_LASTING_WATCH + axis_index
         controller.engine.watch_value(slot, self.axis_index, self.name, self.sign, float(self.counts))
 
     def _present(self, controller: Controller) -> float:
