@@ -423,6 +423,29 @@ class Axis(Table, frozen=True):
 Volts = Annotated[float, msgspec.Meta(ge=0.0, le=2.5)]
 
 
+class Trigger(Table, frozen=True):
+    """What a trigger input is connected to: a contact alone, or a sensor that sees marks on an axis.
+
+    Positions are revolutions of the load from where it stands at start; over a mark the contact changes over.
+    """
+
+    marks_on: Annotated[
+        Literal["none", "axis1", "axis2"], known("axis whose marks the trigger's sensor sees", "design")
+    ] = "none"
+    at_rev: Annotated[float, known("where a mark begins, rev", "design", gt=-1e9, lt=1e9)] = 0.0
+    every_rev: Annotated[
+        float, known("from mark to mark, either way, rev; 0 = one mark only", "design", ge=0.0, le=1e9)
+    ] = 0.0
+    width_rev: Annotated[float, known("width of a mark, rev", "design", gt=0.0, le=1e9)] = 0.01
+
+
+class Triggers(Table, frozen=True):
+    """The trigger inputs."""
+
+    a: Annotated[Trigger, known("TRG-A", "design")] = Trigger()
+    b: Annotated[Trigger, known("TRG-B", "design")] = Trigger()
+
+
 class Wires(Table, frozen=True):
     """Contacts and voltages common to the unit."""
 

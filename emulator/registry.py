@@ -302,6 +302,35 @@ def _analog_signal(channel: int) -> Signal:
     )
 
 
+def _trigger_signals(trigger_index: int, letter: str) -> list[Signal]:
+    def edge_s(controller: Controller) -> float:
+        edge_ns = controller.engine.captured_at_ns(trigger_index)
+        return -1.0 if edge_ns is None else edge_ns / NS_PER_S
+
+    return [
+        Signal(f"capture.{letter}.time", f"when trigger {letter} last latched positions; -1 = never", "s", edge_s),
+        Signal(
+            f"capture.{letter}.count",
+            f"captures of trigger {letter} since power-up",
+            "captures",
+            lambda c: c.engine.capture_count(trigger_index),
+        ),
+    ]
+
+
+def _passing_signal(axis_index: int) -> Signal:
+    def passed_s(controller: Controller) -> float:
+        passed_ns = controller.on_position[axis_index].passed_ns
+        return -1.0 if passed_ns is None else passed_ns / NS_PER_S
+
+    return Signal(
+        f"output_on_position.{axis_index + 1}.time",
+        f"when axis {axis_index + 1} last passed its output position, with an on-time; -1 = never",
+        "s",
+        passed_s,
+    )
+
+
 def describe_signals(controller: Controller) -> dict[str, Signal]:
     """Every signal a unit has, by name."""
     signals = {signal.name: signal for signal in UNIT_SIGNALS}
@@ -313,13 +342,29 @@ def describe_signals(controller: Controller) -> dict[str, Signal]:
         signals[f"wire.{wire}"] = _wire_signal(controller, wire)
     outputs = [_output_signal(number) for number in range(1, controller.output_functions.count + 1)]
     analog = [_analog_signal(channel) for channel in range(1, len(controller.wiring.analog_volts) + 1)]
-    for signal in (*outputs, *analog):
+    triggers = [each for index, letter in enumerate("ab") for each in _trigger_signals(index, letter)]
+    passings = [_passing_signal(axis_index) for axis_index in range(controller.settings.axes)]
+    for signal in (*outputs, *analog, *triggers, *passings):
         signals[signal.name] = signal
     return signals
 
 
 def _set_wire(controller: Controller, name: str, closed: bool) -> None:
     controller.wiring.set(name, closed=closed)
+
+
+def _press_trigger(controller: Controller, trigger: str, at: float, hold: float) -> None:
+    """Errors: KeyError for a trigger that is not there, ValueError for a time that is over or no hold."""
+    wire = f"trigger.{trigger.lower()}"
+    resting = controller.wiring.closed_at_rest(wire)
+    press_ns = round(at * NS_PER_S) if at else controller.now_ns
+    if press_ns < controller.now_ns:
+        raise ValueError(f"{at} s is over; it is {controller.now_ns / NS_PER_S} s")
+    if not hold > 0.0:
+        raise ValueError(f"hold must be above 0 s, not {hold}")
+    controller.alarms.at(press_ns, lambda: controller.wiring.set(wire, closed=not resting))
+    controller.alarms.at(press_ns + round(hold * NS_PER_S), lambda: controller.wiring.set(wire, closed=resting))
+    controller.alarms.carry_out(controller.now_ns)
 
 
 def _set_analog(controller: Controller, channel: int, volts: float) -> None:
@@ -447,6 +492,16 @@ ACTIONS: Mapping[str, Action] = {
             "close (ground) or open a contact at the unit's terminals",
             (Parameter("name", str, "the contact"), Parameter("closed", bool, "true grounds it")),
             _set_wire,
+        ),
+        Action(
+            "press_trigger",
+            "change a trigger's contact over at an exact time, between servo samples too, and back again",
+            (
+                Parameter("trigger", str, "A or B"),
+                Parameter("at", float, "virtual time since power-up of the emulator; 0 = now", unit="s", default=0.0),
+                Parameter("hold", float, "until it changes back", unit="s", default=0.01),
+            ),
+            _press_trigger,
         ),
         Action(
             "set_analog",

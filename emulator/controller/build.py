@@ -13,6 +13,7 @@ from emulator.engine import (
     AxisHardware,
     EncoderTraits,
     Engine,
+    MarkSensor,
     MasterMeasurement,
     ServoRates,
     Travel,
@@ -20,6 +21,7 @@ from emulator.engine import (
 )
 from emulator.engine.machine_code import OnBuild
 from emulator.machine import Axis, Machine
+from emulator.machine_tables import Trigger
 from emulator.plant_tables import engine_plant
 
 
@@ -37,7 +39,7 @@ def build_settings(machine: Machine, changes: Changes) -> Settings:
 
 def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None) -> Engine:
     """The servo engine with the machine's axes."""
-    return Engine(
+    engine = Engine(
         [
             axis_hardware(axis, max_rate_counts_s=machine.encoder.max_rate, ani_fitted=machine.options.ani)
             for axis in machine.axes
@@ -53,6 +55,17 @@ def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None)
             filter_order=machine.following.filter_order,
         ),
     )
+    for trigger_index, trigger in enumerate((machine.triggers.a, machine.triggers.b)):
+        engine.fit_mark_sensor(trigger_index, mark_sensor(trigger))
+    return engine
+
+
+def mark_sensor(trigger: Trigger) -> MarkSensor | None:
+    """The sensor at a trigger, in the engine's terms."""
+    if trigger.marks_on == "none":
+        return None
+    axis_index = int(trigger.marks_on[-1]) - 1
+    return MarkSensor(axis_index, trigger.at_rev, every_rev=trigger.every_rev, width_rev=trigger.width_rev)
 
 
 def unit_factors(machine: Machine) -> UnitFactors:

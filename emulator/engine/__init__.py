@@ -37,12 +37,15 @@ from .ratio_profile import (
 )
 from .readings import DriveShutDown
 from .travel import Travel
+from .trigger_capture import MarkSensor
+from .trigger_inputs import CapturedPositions
 
 __all__ = [
     "ENABLE_MASK",
     "RATES",
     "AnalogSensor",
     "AxisHardware",
+    "CapturedPositions",
     "DistanceMismatch",
     "DriveShutDown",
     "ElasticCoupling",
@@ -54,6 +57,7 @@ __all__ = [
     "Gains",
     "HydraulicCylinder",
     "InvalidSCurve",
+    "MarkSensor",
     "MasterMeasurement",
     "MasterSource",
     "NoMaster",

@@ -53,6 +53,7 @@ from .status import (
     in_target_zone,
 )
 from .travel import CAPTURE_NONE, capture, operate_switches
+from .trigger_capture import look_between, note_before
 from .watches import check_watches
 
 S_PER_NS = 1e-9
@@ -351,10 +352,15 @@ def servo_sample(
     """One servo sample of all axes; returns the events of a system update that fell on it, else 0."""
     now_ns = unit["next_sample_ns"]
     trajectory_due = trajectory_is_due(unit)
+    between = unit["trigger_work"] != 0
+    if between:
+        note_before(unit, axes)
     for axis_index in range(unit["axis_count"]):
         axis = axes[axis_index]
         move_plant(axis, plants[2 * axis_index], plants[2 * axis_index + 1])
         sample_axis(unit, axis, segments, now_ns, trajectory_due)
+    if between:
+        look_between(unit, axes, now_ns)
     unit["next_sample_ns"] = now_ns + unit["servo_ns"]
     if trajectory_due and system_is_due(unit):
         return system_update(unit, axes, ratios, watches, now_ns)

@@ -45,7 +45,8 @@ SHORT_RUN_SAMPLES = 40
 """Runs of fewer samples keep the interpreter lock: handing it over would cost more than the samples."""
 
 FIRST_LASTING_WATCH = WATCH_SLOTS - 2
-"""Value watches from this slot on outlive `clear_watches`: they belong to outputs on position, one an axis."""
+"""Value watches from this slot on outlive `clear_watches`: they belong to starts that wait for a position (GOWHEN), one
+an axis."""
 
 DEFAULT_POSITION_ERROR_LIMIT = 4000
 """SMPER at power-up, counts. Assumed, medium confidence."""
@@ -111,6 +112,7 @@ class Engine(FollowingAxes):
 
     def _power_up(self, axis_index: int, hardware: AxisHardware) -> None:
         self._connect(axis_index, hardware)
+        self.connect_trigger(axis_index, 0)
         self._write(
             axis_index, position_error_limit=DEFAULT_POSITION_ERROR_LIMIT, output_limit_v=10.0, hard_limit_enable=3
         )
@@ -130,6 +132,7 @@ class Engine(FollowingAxes):
             self._write(axis_index, previous_feedback_counts=ints[ENCODER], system_feedback_counts=ints[ENCODER])
             self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0, capture_mode=Capture.NONE)
         self.clear_watches()
+        self.forget_captures()
 
     # Time
 
@@ -389,7 +392,7 @@ class Engine(FollowingAxes):
     ) -> None:
         """Report VALUE at the first system update at which `signal relation threshold` holds, then disarm.
 
-        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are 8 slots.
+        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are WATCH_SLOTS slots.
         """
         if not 0 <= slot < WATCH_SLOTS:
             raise ValueError(f"watch slots are 0 to {WATCH_SLOTS - 1}, not {slot}")

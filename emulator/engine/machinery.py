@@ -15,8 +15,8 @@ from .memory import Memory, write_fields
 from .plants import WORLD_END_REV, Plant, VelocityDrive, load_fields, plant_fields
 from .rates import NS_PER_S
 from .readings import ENCODER, axis_word
-from .terminals import Terminals
 from .travel import Travel, operate_switches
+from .trigger_inputs import TriggerInputs
 
 _SERVO = word_of(UNIT, "servo_ns")
 _PHASE, _READING = axis_word("encoder_phase"), axis_word("encoder_reading")
@@ -64,7 +64,7 @@ class AxisHardware:
         return (position_rev * self.counts_per_rev + self.encoder_phase) // 1
 
 
-class Machinery(Terminals):
+class Machinery(TriggerInputs):
     """Drives, loads and encoders of one unit's axes."""
 
     def __init__(self, memory: Memory, *, output_delay_s: float) -> None:

@@ -77,6 +77,7 @@ def variable(session: Session, number: int) -> float:
 
 
 def test_cut_to_length_for_a_thousand_cuts() -> None:
+    session = conveyor(f"FMCLEN{CUT_LENGTH}", "VAR2=999999", "VAR3=-999999", "VAR5=0", "VAR6=0")
     store(session, CUT_TO_LENGTH)
     run(session, "CUT", seconds=(CYCLES + 2) * CUT_LENGTH / MASTER_COUNTS_S)
     assert variable(session, 5) == CYCLES

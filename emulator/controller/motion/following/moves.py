@@ -72,7 +72,7 @@ def check_go(controller: Controller, axis_index: int) -> None:
     """
     if in_ratio_move(controller, axis_index):
         _check_under_way(controller, axis_index)
-    elif controller.engine.is_moving(axis_index):
+    elif controller.engine.is_moving(axis_index) and not controller.engine.is_held(axis_index):
         shifting = controller.engine.following_status(axis_index) & FollowingStatus.SHIFTING.mask
         raise CommandError(NOT_VALID_DURING_FOLLOWING_MOTION if shifting else MOTION_IN_PROGRESS)
     plan_move(controller, axis_index)
