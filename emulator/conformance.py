@@ -28,19 +28,17 @@ State = Literal["implemented", "stored", "absent"]
 TRANSCRIPTS: Final = Path(__file__).parents[1] / "tests" / "transcripts"
 """Where the transcripts are in a source tree; an installed package has none."""
 
-_MOTION: Final = "comes with the motion modes: compiled motion, contouring, registration"
+_MOTION: Final = "comes with the motion modes: compiled motion, contouring"
 _OTHER_PRODUCT: Final = "not a command of the OEM6250; COMMAND NOT IMPLEMENTED is what the unit itself answers"
 
 ABSENT_GROUPS: Final[Mapping[str, str]] = {
     "contouring": _MOTION,
-    "registration": _MOTION,
 }
 """Groups of which absent rows have one reason."""
 
 ABSENT_ROWS: Final[Mapping[str, str]] = {
     "TRANS": "translation mode needs the computer bus of other products; only its default is accepted",
-    **dict.fromkeys(("GOL", "GOWHEN", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
-    **dict.fromkeys(("TPCA", "TPCC", "TPCE"), _MOTION),
+    **dict.fromkeys(("GOL",), _MOTION),
 }
 """Absent rows of other groups, each with its reason."""
 
@@ -143,7 +141,7 @@ def _carried_out(row: CommandRow) -> bool:
     if row.name in dispatch.handled_names():
         return True
     plain = row.kind == "setting" and row.reply in dispatch.SETTING_REPLIES
-    return plain and row.name not in dispatch.NEEDS_ITS_OWN_HANDLER | dispatch.SWITCHES_WITHOUT_FUNCTION
+    return plain and row.name not in dispatch.SWITCHES_WITHOUT_FUNCTION
 
 
 def example_of(row: CommandRow) -> str:

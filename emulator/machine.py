@@ -26,6 +26,7 @@ from emulator.machine_tables import (
     Encoder,
     EncoderInput,
     ErrorLevels,
+    Following,
     Identity,
     InputsOutputs,
     Limits,
@@ -36,6 +37,7 @@ from emulator.machine_tables import (
     Serial,
     Servo,
     Timing,
+    Triggers,
     Wires,
 )
 from emulator.plant_tables import (
@@ -109,8 +111,10 @@ class Machine(Table, frozen=True):
     timing: Annotated[Timing, known("how fast commands and programs run", "assumed", "L")] = Timing()
     servo: Annotated[Servo, known("the servo processor", "assumed", "L")] = Servo()
     encoder: Annotated[EncoderInput, known("the encoder inputs", "assumed", "L")] = EncoderInput()
+    following: Annotated[Following, known("how masters are measured", "assumed", "M")] = Following()
     axis1: Annotated[Axis, known("what is connected to axis 1", "design")] = Axis()
     axis2: Annotated[Axis, known("what is connected to axis 2", "design")] = Axis()
+    triggers: Annotated[Triggers, known("what the trigger inputs are connected to", "design")] = Triggers()
     wires: Annotated[Wires, known("contacts common to the unit", "design")] = Wires()
 
     @classmethod
@@ -233,6 +237,7 @@ def _conflicts(machine: Machine) -> list[tuple[str, str, str]]:
         *_serial_conflicts(machine),
         *_plant_conflicts(machine),
         *master_conflicts(machine.defaults, ani_fitted=machine.options.ani),
+        *_mark_conflicts(machine),
     ]
 
 
@@ -282,6 +287,14 @@ def _travel_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
             found = f"{travel.home_to_rev:g}"
             conflicts.append((f"{key}.home_to_rev", found, f"above home_from_rev, {travel.home_from_rev:g}"))
     return conflicts
+
+
+def _mark_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
+    return [
+        (f"triggers.{letter}.every_rev", f"{trigger.every_rev:g}", f"0 or above width_rev, {trigger.width_rev:g}")
+        for letter, trigger in (("a", machine.triggers.a), ("b", machine.triggers.b))
+        if trigger.every_rev != 0.0 and not trigger.every_rev > trigger.width_rev
+    ]
 
 
 def _plant_conflicts(machine: Machine) -> list[tuple[str, str, str]]:

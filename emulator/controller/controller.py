@@ -36,6 +36,10 @@ from emulator.controller.programs.debugging import Debugging
 from emulator.controller.programs.on_conditions import OnConditions
 from emulator.controller.programs.program_select import ProgramSelect, security_locked
 from emulator.controller.programs.store import Programs
+from emulator.controller.registration.captures import Captures
+from emulator.controller.registration.held_starts import HeldStarts
+from emulator.controller.registration.registering import Registration
+from emulator.controller.registration.trigger_functions import TriggerFunctions
 from emulator.controller.variables.data_programs import DataPrograms
 from emulator.controller.variables.operands import Operands
 from emulator.controller.variables.store import Variables
@@ -136,6 +140,10 @@ class Controller:
         self.homing = Homing(self)
         self.jogging = Jogging(self)
         self.joystick = Joystick(self)
+        self.held_starts = HeldStarts(self)
+        self.captures = Captures(self)
+        self.registration = Registration(self)
+        self.trigger_functions = TriggerFunctions(self)
         self._enable_lost = False
         self._lines: dict[int, LineAssembler] = {}
         self._transmitter = self.line.transmitter
@@ -155,7 +163,7 @@ class Controller:
         moving = any(self.engine.is_moving(axis_index) for axis_index in range(self.settings.axes))
         held_back = self.engine.time_ns < self.disturbances.next_ns < NEVER
         waits = self.alarms.pending or self.line.busy or held_back
-        return moving or self.interpreter.busy or waits
+        return moving or self.interpreter.busy or waits or self.held_starts.pending
 
     def input_full(self, channel: int) -> bool:
         """So many commands of this connection wait that more of its input should stay on the wire."""
@@ -321,6 +329,8 @@ class Controller:
         """Assert the shutdown output of an axis: loop open, motion given up."""
         self.homing.abort(axis_index)
         self.joystick.leave(axis_index)
+        self.held_starts.forget((axis_index,))
+        self.registration.forget(axis_index)
         self.engine.disable(axis_index)
         self.note_drive(axis_index, on=False)
 
@@ -339,6 +349,8 @@ class Controller:
             AxisStatus.JOG_MODE: self.settings.flag("JOG", axis_index),
             AxisStatus.JOYSTICK_MODE: self.settings.flag("JOY", axis_index),
             AxisStatus.DRIVE_FAULTED: self.drive_faulted[axis_index],
+            AxisStatus.GOWHEN_PENDING: self.held_starts.holds(axis_index),
+            AxisStatus.REGISTRATION_MOVE_COMMANDED: self.registration.commanded(axis_index),
         }
         self.engine.set_extra_status(axis_index, sum(bit.mask for bit, on in modes.items() if on))
 
@@ -397,11 +409,15 @@ class Controller:
         events = self.homing.act_on(axis_index, events)
         if events & Event.VALUE:
             self.on_position[axis_index].check()
+            self.held_starts.look()
+        if events & Event.TRIGGER:
+            self.captures.note(axis_index)
         if events & Event.HARD_LIMIT:
             end_of_travel(self, axis_index, "LHAD", ErrorStatus.HARD_LIMIT_HIT)
         if events & Event.SOFT_LIMIT:
             end_of_travel(self, axis_index, "LSAD", ErrorStatus.SOFT_LIMIT_HIT)
         if events & Event.POSITION_ERROR:
+            self.held_starts.forget((axis_index,))
             self.note_drive(axis_index, on=False)
             self.faults.latch(ErrorStatus.POSITION_ERROR_EXCEEDED)
         if events & Event.SETTLE_TIMEOUT:
@@ -464,6 +480,10 @@ class Controller:
         self.homing.reset()
         self.jogging.reset()
         self.joystick.reset()
+        self.held_starts.reset()
+        self.captures.power_up()
+        self.registration.reset()
+        self.trigger_functions.reset()
         self._reset_inputs_and_outputs()
         self.engine.power_up()
         dispatch.apply_all(self)

@@ -36,6 +36,12 @@ class Reading(NamedTuple):
         return self.scale in DISTANCE_SCALES and self.places == 0
 
 
+def _captured(trigger_index: int, name: str) -> Reading:
+    return Reading(
+        lambda engine, axis_index: getattr(engine.captured_positions(trigger_index, axis_index), name), "distance", 0
+    )
+
+
 READINGS = {
     "PC": Reading(Engine.commanded_position, "distance", 0),
     "PE": Reading(Engine.encoder_position, "distance", 0),
@@ -51,6 +57,11 @@ READINGS = {
     "VMAS": Reading(Engine.master_velocity, "master", MEASURED_PLACES),
     "PSLV": Reading(Engine.slave_position, "distance", 0),
     "PSHF": Reading(Engine.shift_counts, "distance", 0),
+    **{
+        f"{operand}{letter}": _captured(trigger_index, name)
+        for operand, name in (("PCE", "encoder"), ("PCC", "commanded"), ("PCA", "ani"))
+        for trigger_index, letter in enumerate("AB")
+    },
 }
 """The readings by operand name."""
 

@@ -41,7 +41,10 @@ class Wait(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class MotionWait:
-    """COMEXC0: until the commanded motion of these axes is over and, with STRGTE1, settled or timed out."""
+    """COMEXC0: until the commanded motion of these axes is over and, with STRGTE1, settled or timed out.
+
+    Motion that GOWHEN holds back is still to come (assumed: GOWHEN itself does not hold the buffer, its GO does).
+    """
 
     axes: tuple[int, ...]
     look_again_ns: int = NEVER
@@ -49,7 +52,9 @@ class MotionWait:
 
     def over(self, controller: Controller) -> bool:
         engine = controller.engine
-        return not any(engine.is_moving(axis) or engine.is_settling(axis) for axis in self.axes)
+        if any(engine.is_moving(axis) or engine.is_settling(axis) for axis in self.axes):
+            return False
+        return not any(controller.held_starts.holds(axis) for axis in self.axes)
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,6 +58,7 @@ def system_status(controller: Controller) -> str:
         SystemStatus.RP240_CONNECTED: controller.machine.rp240.fitted,
         SystemStatus.NONVOLATILE_MEMORY_ERROR: controller.memory_lost,
         **controller.compiled.status,
+        **controller.captures.status,
     }
     return word_bits(sum(bit.mask for bit, on in conditions.items() if on), WORD)
 

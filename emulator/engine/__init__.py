@@ -6,9 +6,10 @@ profiles it runs.
 
 from .control_law import Gains, UnitFactors
 from .encoder import AnalogSensor, EncoderTraits, EncoderWiring
+from .encoder_motion import EncoderMotion
 from .engine import Engine
 from .events import ENABLE_MASK, Event, Relation, Signal, Wire, wire_mask
-from .following_axes import MasterSource, NoMaster
+from .following_axes import MasterMeasurement, MasterSource, NoMaster
 from .machinery import AxisHardware
 from .plants import ElasticCoupling, HydraulicCylinder, Plant, PlantError, TorqueDrive, VelocityDrive
 from .profile import (
@@ -36,15 +37,19 @@ from .ratio_profile import (
 )
 from .readings import DriveShutDown
 from .travel import Travel
+from .trigger_capture import MarkSensor
+from .trigger_inputs import CapturedPositions
 
 __all__ = [
     "ENABLE_MASK",
     "RATES",
     "AnalogSensor",
     "AxisHardware",
+    "CapturedPositions",
     "DistanceMismatch",
     "DriveShutDown",
     "ElasticCoupling",
+    "EncoderMotion",
     "EncoderTraits",
     "EncoderWiring",
     "Engine",
@@ -52,6 +57,8 @@ __all__ = [
     "Gains",
     "HydraulicCylinder",
     "InvalidSCurve",
+    "MarkSensor",
+    "MasterMeasurement",
     "MasterSource",
     "NoMaster",
     "Plant",

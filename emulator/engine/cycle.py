@@ -13,6 +13,7 @@ import math
 from .control_law import closed_loop, dither, limited, open_loop
 from .converter import convert_output
 from .encoder import OPEN_LOOP, take_feedback
+from .encoder_motion import drive_encoder
 from .events import (
     EVENT_HARD_LIMIT,
     EVENT_MOVE_ENDED,
@@ -54,6 +55,7 @@ from .status import (
 )
 from .streaming import NO_REFILL
 from .travel import CAPTURE_NONE, capture, operate_switches
+from .trigger_capture import look_between, note_before
 from .watches import check_watches
 
 S_PER_NS = 1e-9
@@ -68,6 +70,7 @@ def hold_still(axis: Record) -> None:
     """No profile any more: the commanded position stays where it is."""
     axis["profile_active"] = 0
     axis["shift_active"] = 0
+    axis["ratio_now"] = 0.0
     axis["commanded_velocity"] = 0.0
     axis["commanded_acceleration"] = 0.0
 
@@ -174,6 +177,8 @@ def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, traj
             follow_profile(axis, segments, now_ns)
         elif follow_master(unit, axis, segments, now_ns):
             end_move(axis, now_ns)
+    if axis["encoder_driven"] != 0:
+        drive_encoder(axis, now_ns)
     take_feedback(axis)
     if axis["switches_fitted"] != 0:
         operate_switches(unit, axis)
@@ -352,10 +357,15 @@ def servo_sample(
     """One servo sample of all axes; returns the events of a system update that fell on it, else 0."""
     now_ns = unit["next_sample_ns"]
     trajectory_due = trajectory_is_due(unit)
+    between = unit["trigger_work"] != 0
+    if between:
+        note_before(unit, axes)
     for axis_index in range(unit["axis_count"]):
         axis = axes[axis_index]
         move_plant(axis, plants[2 * axis_index], plants[2 * axis_index + 1])
         sample_axis(unit, axis, segments, now_ns, trajectory_due)
+    if between:
+        look_between(unit, axes, now_ns)
     unit["next_sample_ns"] = now_ns + unit["servo_ns"]
     if trajectory_due and system_is_due(unit):
         return system_update(unit, axes, ratios, watches, now_ns)

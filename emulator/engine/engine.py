@@ -16,7 +16,7 @@ from .control_law import Gains, UnitFactors, gain_fields
 from .converter import DEFAULT_DAC_BITS, dac_fields
 from .encoder import ENCODER_SOURCE
 from .events import EVENT_ROWS_LOW, MAX_AXES, Event, Relation, Signal
-from .following_axes import MasterSource
+from .following_axes import MasterMeasurement, MasterSource
 from .layout import UNIT, word_of
 from .machine_code import Calls, Kernel, OnBuild, load_kernel
 from .machinery import AxisHardware
@@ -47,7 +47,8 @@ SHORT_RUN_SAMPLES = 40
 """Runs of fewer samples keep the interpreter lock: handing it over would cost more than the samples."""
 
 FIRST_LASTING_WATCH = WATCH_SLOTS - 2
-"""Value watches from this slot on outlive `clear_watches`: they belong to outputs on position, one an axis."""
+"""Value watches from this slot on outlive `clear_watches`: they belong to starts that wait for a position (GOWHEN), one
+an axis."""
 
 STREAM_MARGIN_UPDATES = 4
 """System updates for which the rows of a streamed profile still last when the kernel asks for more."""
@@ -90,6 +91,7 @@ class Engine(RatioStreams):
         unit_factors: UnitFactors | None = None,
         drive_off_to_zero: bool = False,
         output_delay_s: float = 0.0,
+        measurement: MasterMeasurement | None = None,
     ) -> None:
         """`output_delay_s` is the time from a servo sample to the moment at which the output computed in it appears at
         the terminals; more than a sample counts as a whole one."""
@@ -110,7 +112,7 @@ class Engine(RatioStreams):
             UNIT,
             {"axis_count": len(axes), "drive_off_to_zero": drive_off_to_zero, **dac_fields(dac_bits)},
         )
-        self._init_following(len(axes))
+        self._init_following(len(axes), measurement or MasterMeasurement())
         self._init_ratio_streams(len(axes))
         for axis_index, hardware in enumerate(axes):
             self._power_up(axis_index, hardware)
@@ -122,6 +124,7 @@ class Engine(RatioStreams):
 
     def _power_up(self, axis_index: int, hardware: AxisHardware) -> None:
         self._connect(axis_index, hardware)
+        self.connect_trigger(axis_index, 0)
         self._write(
             axis_index, position_error_limit=DEFAULT_POSITION_ERROR_LIMIT, output_limit_v=10.0, hard_limit_enable=3
         )
@@ -141,6 +144,7 @@ class Engine(RatioStreams):
             self._write(axis_index, previous_feedback_counts=ints[ENCODER], system_feedback_counts=ints[ENCODER])
             self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0, capture_mode=Capture.NONE)
         self.clear_watches()
+        self.forget_captures()
 
     # Time
 
@@ -457,7 +461,7 @@ class Engine(RatioStreams):
     ) -> None:
         """Report VALUE at the first system update at which `signal relation threshold` holds, then disarm.
 
-        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are 8 slots.
+        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are WATCH_SLOTS slots.
         """
         if not 0 <= slot < WATCH_SLOTS:
             raise ValueError(f"watch slots are 0 to {WATCH_SLOTS - 1}, not {slot}")

@@ -19,6 +19,7 @@ EVENT_VALUE = 128
 EVENT_WIRES = 256
 EVENT_HOME_EDGE = 512
 EVENT_INDEX = 1024
+EVENT_TRIGGER = 1 << 16
 EVENT_ROWS_LOW = 1 << 20
 
 
@@ -41,13 +42,15 @@ class Event(IntFlag):
     STATUS = EVENT_STATUS
     """A watched AS bit changed."""
     VALUE = EVENT_VALUE
-    """A value watch came true."""
+    """A value watch came true, or the encoder passed a position waited for."""
     WIRES = EVENT_WIRES
     """`wires` or `inputs` differ from what was last reported, or a report was asked for."""
     HOME_EDGE = EVENT_HOME_EDGE
     """The home input changed as an armed capture waited for."""
     INDEX = EVENT_INDEX
     """The encoder passed an index pulse as an armed capture waited for."""
+    TRIGGER = EVENT_TRIGGER
+    """The axis's trigger has latched positions."""
     ROWS_LOW = EVENT_ROWS_LOW
     """More of a streamed profile was taken from its iterator, marks and all."""
 

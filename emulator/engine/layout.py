@@ -45,6 +45,7 @@ UNIT_FIELDS: Fields = (
     ("fired_watches", INT, "value watches that have fired, bit = slot, since Python last asked"),
     ("slaves", INT, "axes that have a master"),
     ("ratio_capacity", INT, "rows of the table of ratios kept for each axis"),
+    ("trigger_work", INT, "why samples are looked between, bits of `trigger_capture`; 0 = no reason"),
 )
 
 _FOLLOWING_FIELDS: Fields = (
@@ -57,8 +58,10 @@ _FOLLOWING_FIELDS: Fields = (
     ("master_moved", INT, "master travel in the last system update period, counts"),
     ("master_decay", FLOAT, "FFILT: share of the filter's lag that is left after a system update; 0 = no filter"),
     ("master_lag", FLOAT, "master position less filtered master position, counts"),
+    ("first_master_lag", FLOAT, "share of it of the filter's first stage, counts"),
+    ("filter_stages", INT, "stages of the filter: 1 or 2"),
     ("previous_master_lag", FLOAT, "the same one system update earlier, counts"),
-    ("prediction", INT, "FPPEN: 1 = the master position is extrapolated"),
+    ("prediction", INT, "FPPEN: 0 off, else the samples the master velocity is measured over, 1 or 2"),
     ("master_used", INT, "master position filtered and predicted, whole counts"),
     ("master_used_part", FLOAT, "its fraction of a count"),
     ("master_velocity", FLOAT, "change of the filtered master position over two system updates, counts/s"),
@@ -111,6 +114,39 @@ _FOLLOWING_FIELDS: Fields = (
     ("following_watch_mask", INT, "FS bits being watched"),
     ("watched_following", INT, "the watched bits when armed or last reported"),
 )
+
+
+def _trigger_fields() -> Fields:
+    """What happens between two samples: `trigger_capture`. Trigger n is in the record of axis n."""
+    positions = {"encoder": "encoder", "commanded": "commanded", "ani": "ANI"}
+    return (
+        ("trigger_mask", INT, "bit of the axis's trigger in `inputs`"),
+        ("trigger_armed", INT, "1 = its active edge latches positions (INFNC-H)"),
+        ("trigger_active_level", INT, "1 = grounded is active (INLVL0), 0 = open"),
+        ("trigger_lockout_ns", INT, "TRGLOT, ns"),
+        ("trigger_locked_until_ns", INT, "edges before this time are ignored, ns"),
+        ("trigger_edge_ns", INT, "time of an edge that the next sample captures, ns; -1 = none"),
+        ("captured_edge_ns", INT, "time of the last edge captured, ns; -1 = none"),
+        ("captures", INT, "edges captured since power-up"),
+        ("sensor_fitted", INT, "1 = a sensor at the trigger sees marks"),
+        ("sensor_axis", INT, "axis the marks are on"),
+        ("sensor_operated", INT, "bit of `inputs` that a mark at the sensor has changed over"),
+        ("mark_at_rev", FLOAT, "true position of a mark's beginning, rev"),
+        ("mark_every_rev", FLOAT, "from mark to mark, rev; 0 = one mark"),
+        ("mark_width_rev", FLOAT, "width of a mark, rev"),
+        ("compare_direction", INT, "which way the encoder is to come to compare_counts, +1 or -1; 0 = not waited for"),
+        ("compare_counts", INT, "raw encoder position waited for, counts"),
+        ("compare_passed_ns", INT, "when it was passed, ns; -1 = not yet"),
+        ("before_rev", FLOAT, "true position of the shaft at the last sample, rev"),
+        ("before_load_rev", FLOAT, "position of the load at the last sample, rev"),
+        ("before_rev_s", FLOAT, "true velocity at the last sample, rev/s"),
+        ("before_reading", INT, "encoder_reading at the last sample"),
+        *((f"before_{key}_counts", INT, f"raw {name} position at the last sample") for key, name in positions.items()),
+        ("before_feedback_counts", INT, "raw feedback position at the last sample"),
+        *((f"own_{key}_capture", INT, f"raw {name} position, by its own trigger") for key, name in positions.items()),
+        *((f"other_{key}_capture", INT, "the same by the other axis's trigger") for key in positions),
+    )
+
 
 AXIS_FIELDS: Fields = (
     # drive and loop
@@ -230,7 +266,20 @@ AXIS_FIELDS: Fields = (
     ("load_velocity", FLOAT, "velocity of the load's inertia on a springy shaft, rev/s"),
     ("spool", FLOAT, "position of a cylinder's valve spool, V"),
     ("spool_rate", FLOAT, "its velocity over the valve's natural frequency, V"),
+    # an encoder turned by something else than its motor
+    ("encoder_driven", INT, "1 = its motion is what follows, 0 = the axis turns it"),
+    ("driven_counts", FLOAT, "where it stands, without its phase, counts"),
+    ("motion_start_ns", INT, "when its motion begins, ns"),
+    ("motion_origin", FLOAT, "where it stood then, counts"),
+    ("motion_start_velocity", FLOAT, "its velocity then, counts/s"),
+    ("motion_velocity", FLOAT, "its velocity after the ramp, counts/s"),
+    ("motion_ramp_s", FLOAT, "duration of the ramp, s"),
+    ("motion_swing", FLOAT, "amplitude of a sine on top, counts"),
+    ("motion_hz", FLOAT, "its frequency, Hz"),
+    ("motion_end_s", FLOAT, "duration of the motion, s; it then rests"),
+    ("motion_end_counts", FLOAT, "travel of the whole motion, counts"),
     *_FOLLOWING_FIELDS,
+    *_trigger_fields(),
 )
 
 

@@ -26,10 +26,6 @@ ERRORS_NOT_YET = {
     text: "its command belongs to a motion mode that is not built"
     for text in (
         "COMMAND/DRIVE MISMATCH",
-        "FOLMAS NOT SPECIFIED",
-        "INVALID FOLMAS SPECIFIED",
-        "NOT VALID DURING FOLLOWING MOTION",
-        "NOT VALID DURING RAMP",
         "MAXIMUM COUNTS PER SECOND EXCEEDED",
         "EXCESSIVE PATH RADIUS DIFFERENCE",
         "PATH RADIUS TOO SMALL",

@@ -391,9 +391,9 @@ class TestOneAxis:
 
 LATER = [
     *("GOL11", "GOBUF1", "PCOMP P", "PRUN P"),
-    *("PLIN1,1", "PARCM5,5,5", "PARCP1,1,1,1", "TPCA"),
+    *("PLIN1,1", "PARCM5,5,5", "PARCP1,1,1,1"),
 ]
-"""Other issues' work: Following, compiled motion, registration, contouring, linear interpolation."""
+"""Other issues' work: compiled motion, contouring, linear interpolation."""
 
 OTHER_PRODUCTS = {
     "FMAXA": "COMMAND NOT IMPLEMENTED",

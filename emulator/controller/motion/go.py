@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from decimal import ROUND_DOWN, Decimal
+from functools import partial
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles, require_rest
@@ -11,6 +13,7 @@ from emulator.controller.faults import CLEARED_BY_GO, clear_without_cause
 from emulator.controller.motion.following import moves
 from emulator.controller.motion.following.assignment import is_following
 from emulator.controller.motion.following.go_wait import motion_wait
+from emulator.controller.motion.following.master_condition import MasterPositionReached
 from emulator.controller.motion.limits import limit_in_the_way
 from emulator.controller.motion.targets import preset_target
 from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
@@ -52,10 +55,29 @@ def go(controller: Controller, command: Command) -> Lines:
         check_move(controller, axis_index)
     controller.faults.clear(CLEARED_BY_GO)
     for axis_index in axes:
-        start(controller, axis_index)
+        start_when_due(controller, axis_index)
     if not controller.settings.flag("COMEXC") and axes:
         controller.interpreter.wait_for(motion_wait(controller, axes))
     return None
+
+
+def start_when_due(controller: Controller, axis_index: int) -> None:
+    """Start one axis now, or when what GOWHEN or TRGFN has it wait for comes.
+
+    A Following move that waits for its own master is handed to the servo at once, so that it begins exactly there.
+    """
+    condition = controller.held_starts.only_condition(axis_index)
+    begin: Callable[[], None] = partial(start, controller, axis_index)
+    if is_following(controller, axis_index) and isinstance(condition, MasterPositionReached):
+        start_at = condition.travel_ahead(controller, axis_index)
+        if start_at is not None:
+            start(controller, axis_index, start_at=start_at)
+            begin = _has_begun
+    controller.held_starts.start((axis_index,), begin)
+
+
+def _has_begun() -> None:
+    """The servo itself has begun the move."""
 
 
 def check_move(controller: Controller, axis_index: int) -> None:
@@ -137,18 +159,35 @@ def check_s_curve(controller: Controller, axis_index: int, family: str = "") -> 
         raise s_curve_deceleration(axis_index + 1)
 
 
-def start(controller: Controller, axis_index: int) -> None:
-    """Start one axis: nothing moves into an active limit, a target that cannot be reached stops the axis."""
-    following = is_following(controller, axis_index)
-    direction = (moves.direction if following else _direction)(controller, axis_index)
-    if not allow_motion(controller, axis_index, direction):
+def start(controller: Controller, axis_index: int, *, start_at: int | None = None) -> None:
+    """Start one axis, moving or not: nothing moves into an active limit; a preset move that cannot be had from the
+    present motion leaves that as it is, with AS bit 30 and ER bit 10 (assumed M).
+
+    ``start_at`` is the master travel at which a Following move is to begin.
+    """
+    if is_following(controller, axis_index):
+        _start_following(controller, axis_index, start_at)
         return
-    if following:
-        moves.start_move(controller, axis_index)
-    elif controller.settings.flag("MC", axis_index):
-        controller.engine.start_profile(axis_index, _continuous(controller, axis_index, direction))
-    else:
-        _start_preset(controller, axis_index)
+    direction = _direction(controller, axis_index)
+    if not _way_is_free(controller, axis_index, direction):
+        return
+    try:
+        segments = _profile(controller, axis_index, direction)
+    except TargetOvershot:
+        controller.engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
+        controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
+        return
+    _clear_earlier_moves(controller, axis_index)
+    if segments:
+        controller.registration.watch(axis_index)
+        controller.engine.start_profile(axis_index, segments)
+
+
+def _start_following(controller: Controller, axis_index: int, start_at: int | None) -> None:
+    """A move that is no longer legal when what it waited for comes does not start (assumed)."""
+    with suppress(CommandError):
+        if allow_motion(controller, axis_index, moves.direction(controller, axis_index)):
+            moves.start_move(controller, axis_index, start_at=start_at)
 
 
 def _direction(controller: Controller, axis_index: int) -> int:
@@ -162,38 +201,44 @@ def _direction(controller: Controller, axis_index: int) -> int:
 
 
 def allow_motion(controller: Controller, axis_index: int, direction: int) -> bool:
-    """Whether no active limit lies in a direction: then what earlier moves have left in AS and ER is cleared.
+    """Whether no active limit lies in a direction; if so what earlier moves have left in AS and ER is cleared."""
+    free = _way_is_free(controller, axis_index, direction)
+    if free:
+        _clear_earlier_moves(controller, axis_index)
+    return free
 
-    Otherwise the limit is latched, AS 15 to 18 and ER 2 or 3.
-    """
-    engine = controller.engine
+
+def _way_is_free(controller: Controller, axis_index: int, direction: int) -> bool:
+    """Whether no active limit lies in a direction; one that does is latched, AS 15 to 18 and ER 2 or 3."""
     hit = limit_in_the_way(controller, axis_index, direction)
     if hit is not None:
-        engine.latch_status(axis_index, hit.axis_bit.mask)
+        controller.engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
-        return False
-    in_zone = engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
-    engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
+    return hit is None
+
+
+def _clear_earlier_moves(controller: Controller, axis_index: int) -> None:
+    in_zone = controller.engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
+    controller.engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
     clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
     if in_zone:
         clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
-    return True
 
 
-def _start_preset(controller: Controller, axis_index: int) -> None:
-    engine = controller.engine
-    state = engine.profile_state(axis_index)
+def _profile(controller: Controller, axis_index: int, direction: int) -> Segments:
+    """The profile GO starts; none for a preset move that goes nowhere.
+
+    Raises:
+        TargetOvershot: the axis moves, and its target lies behind it or within its braking distance.
+    """
+    if controller.settings.flag("MC", axis_index):
+        return _continuous(controller, axis_index, direction)
+    state = controller.engine.profile_state(axis_index)
     target = preset_target(controller, axis_index)
     velocity = float(controller.settings.counts("V", axis_index))
     if velocity == 0 or (target == state.position and state.velocity == 0):
-        return
-    try:
-        segments = plan_preset(state.position, state.velocity, target, velocity, *ramps(controller, axis_index))
-    except TargetOvershot:
-        engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
-        controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
-        segments = stop_segments(controller, axis_index, "AD")
-    engine.start_profile(axis_index, segments)
+        return ()
+    return plan_preset(state.position, state.velocity, target, velocity, *ramps(controller, axis_index))
 
 
 def _continuous(controller: Controller, axis_index: int, direction: int) -> Segments:

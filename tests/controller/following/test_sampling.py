@@ -85,7 +85,7 @@ def test_prediction_errs_under_acceleration() -> None:
 @pytest.mark.parametrize(("ffilt", "corner_hz"), [(1, 120.0), (2, 80.0), (3, 50.0), (4, 20.0)])
 @pytest.mark.parametrize("prediction", [0, 1])
 def test_the_filter_lags_whether_predicted_or_not(ffilt: int, corner_hz: float, prediction: int) -> None:
-    """A first-order low-pass behind a ramp: v Ts d / (1 - d) with d = exp(-2 pi f Ts); prediction does not take it away."""
+    """First order behind a ramp: v Ts d / (1 - d) with d = exp(-2 pi f Ts); prediction does not take it away."""
     rig = at_ratio_one(f"FFILT{ffilt}", f"1FPPEN{prediction}")
     step = 56
     decay = math.exp(-2 * math.pi * corner_hz * rig.update_ns / 1e9)

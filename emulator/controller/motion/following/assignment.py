@@ -43,6 +43,11 @@ def has_master(controller: Controller, axis_index: int) -> bool:
     return controller.settings.integer("FOLMAS", axis_index) != 0
 
 
+def master_of(controller: Controller, axis_index: int) -> Master | None:
+    """The master of an axis; None for an axis that is no slave."""
+    return _master(controller, controller.settings.integer("FOLMAS", axis_index))
+
+
 def is_following(controller: Controller, axis_index: int) -> bool:
     """Whether the axis's moves are Following moves (FOLEN1)."""
     return controller.settings.flag("FOLEN", axis_index)
@@ -101,7 +106,7 @@ def _feedback(controller: Controller) -> list[int]:
 def apply_masters(controller: Controller, command: Command, changed: list[int]) -> None:
     """Have the servo count the masters; counting of master cycles begins anew at FMCP (assumed)."""
     for axis_index in changed:
-        master = _master(controller, controller.settings.integer("FOLMAS", axis_index))
+        master = master_of(controller, axis_index)
         if master is None:
             controller.engine.set_master(axis_index, source=MasterSource.NONE, master_index=axis_index, sign=1)
             _switch(controller, axis_index, on=False)

@@ -38,7 +38,10 @@ class FollowingWait(MotionWait):
         engine = controller.engine
         # the plain form of super() does not survive a dataclass with slots
         ended = MotionWait.over(self, controller)
-        shifting = any(engine.following_status(axis) & FollowingStatus.SHIFTING.mask for axis in self.shifting)
+        shifting = any(
+            engine.following_status(axis) & FollowingStatus.SHIFTING.mask or controller.held_starts.holds(axis)
+            for axis in self.shifting
+        )
         if ended and not shifting and not any(_changes(controller, axis) for axis in self.slaves):
             return True
         for axis_index in (*self.slaves, *self.shifting):
@@ -52,9 +55,11 @@ def _changes(controller: Controller, axis_index: int) -> bool:
     """Whether a slave's move has not been taken up by a system update, a moving master is changing its ratio, or it has
     come to rest and is not yet in its zone."""
     engine = controller.engine
+    status = engine.following_status(axis_index)
+    if controller.held_starts.holds(axis_index):
+        return bool(status & FollowingStatus.MASTER_MOVING.mask)
     if not in_ratio_move(controller, axis_index):
         return engine.is_settling(axis_index)
-    status = engine.following_status(axis_index)
     if not status & (FollowingStatus.RATIO_CHANGING.mask | FollowingStatus.AT_RATIO.mask):
         return True
     on_its_way = not at_ratio(controller, axis_index) or controller.ratio_moves.advancing(axis_index)

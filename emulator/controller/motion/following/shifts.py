@@ -7,6 +7,7 @@ They need TFS bit 9: Following enabled, no ramp, no preset move, no preset shift
 from __future__ import annotations
 
 from enum import IntEnum
+from functools import partial
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
@@ -83,7 +84,8 @@ def shift_continuously(controller: Controller, command: Command) -> Lines:
         elif shift is ContinuousShift.STOP:
             _stop_shift(controller, axis_index)
         else:
-            _run_on(controller, axis_index, 1 if shift is ContinuousShift.POSITIVE else -1)
+            direction = 1 if shift is ContinuousShift.POSITIVE else -1
+            controller.held_starts.start((axis_index,), partial(_run_on, controller, axis_index, direction))
     return None
 
 
@@ -114,9 +116,13 @@ def _braking(controller: Controller, axis_index: int) -> Segments:
 def _begin(
     controller: Controller, axis_index: int, segments: Segments, direction: int, *, continuous: bool = False
 ) -> None:
-    """Start a shift; at rest nothing moves into an active limit."""
+    """Start a shift that may still begin when what it was held for comes; at rest nothing moves into a limit."""
     resting = controller.engine.commanded_velocity(axis_index) == 0.0
-    if segments and allow_motion(controller, axis_index, direction if resting else 0):
+    if (
+        segments
+        and not shift_refusal(controller, axis_index)
+        and allow_motion(controller, axis_index, direction if resting else 0)
+    ):
         controller.engine.start_shift(axis_index, segments, continuous=continuous)
 
 
@@ -127,7 +133,7 @@ def shift_by_distance(controller: Controller, command: Command) -> Lines:
     for axis_index in given:
         _check_shift(controller, axis_index)
     for axis_index, counts in given.items():
-        _shift_by(controller, axis_index, counts)
+        controller.held_starts.start((axis_index,), partial(_shift_by, controller, axis_index, counts))
     if not controller.settings.flag("COMEXC"):
         controller.interpreter.wait_for(FollowingWait((), shifting=tuple(given)))
     return None

@@ -24,14 +24,18 @@ def following_status(controller: Controller, axis_index: int) -> str:
         return word_bits(0, WORD)
     ready = controller.engine.is_enabled(axis_index)
     conditions = {
+        FollowingStatus.MASTER_CYCLE_TRIGGER_PENDING: controller.trigger_functions.new_cycle_pending(axis_index),
         FollowingStatus.FOLEN_ACTIVE: is_following(controller, axis_index),
         FollowingStatus.OK_TO_SHIFT: ready and not shift_refusal(controller, axis_index),
         FollowingStatus.GEARED_ADVANCE_UNDER_WAY: controller.ratio_moves.advancing(axis_index),
         FollowingStatus.OK_FOR_GEARED_ADVANCE: ready and not advance_refusal(controller, axis_index),
     }
-    word = controller.engine.following_status(axis_index)
+    word = controller.engine.following_status(axis_index) & _OF_THE_MANUAL
     return word_bits(word | sum(bit.mask for bit, on in conditions.items() if on), WORD)
 
+
+_OF_THE_MANUAL = sum(bit.mask for bit in FollowingStatus)
+"""The servo has a bit of its own besides."""
 
 SHIFT_AND_ADVANCE = frozenset({FollowingStatus.OK_TO_SHIFT, FollowingStatus.OK_FOR_GEARED_ADVANCE})
 _THEY_DEPEND_ON = (

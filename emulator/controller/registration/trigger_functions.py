@@ -1,0 +1,111 @@
+"""TRGFN: a trigger that lets the next start of an axis go, or begins a new master cycle.
+
+``1TRGFNA10`` arms trigger A for axis 1: the first digit is for GO, the second for FMCNEW, and each is cleared once the
+trigger has come.  The trigger needs function H.  Form and use are assumed (M, L); assumed too: without an axis digit
+all axes are meant, and a digit X leaves that function as it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from emulator.controller.dispatch import Lines, handles
+from emulator.controller.motion.following.cycles import restart_at_trigger
+from emulator.controller.registration.captures import LETTERS
+from protocol.command import Command
+from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, CommandError
+from protocol.fields import axis_indexes
+from protocol.reply import ReplyLine
+
+if TYPE_CHECKING:
+    from emulator.controller.controller import Controller
+
+NAME = "TRGFN"
+FUNCTIONS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class TriggerAwaited:
+    """A trigger that has to come after the start was commanded."""
+
+    def holds(self, controller: Controller) -> bool:
+        """Never by itself: the trigger fulfils it."""
+        return False
+
+    def await_it(self, controller: Controller, axis_index: int) -> None:
+        """Captures are told."""
+
+
+class TriggerFunctions:
+    """What the triggers of one unit are armed for; the starts that wait for them are kept with the others."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._controller = controller
+        self._new_cycle: set[tuple[int, int]] = set()
+
+    def reset(self) -> None:
+        """Power-up: armed for nothing."""
+        self._new_cycle.clear()
+
+    def digits(self, trigger_index: int, axis_index: int) -> str:
+        """GO and FMCNEW of one axis, 1 = armed."""
+        starts = self._controller.held_starts.has_condition(axis_index, _command(trigger_index))
+        return f"{int(starts)}{int(self.awaits_new_cycle(trigger_index, axis_index))}"
+
+    def awaits_new_cycle(self, trigger_index: int, axis_index: int) -> bool:
+        """A trigger will begin a new master cycle of an axis."""
+        return (trigger_index, axis_index) in self._new_cycle
+
+    def new_cycle_pending(self, axis_index: int) -> bool:
+        """Some trigger will begin a new master cycle of an axis (FS bit 13)."""
+        return any(axis_index == each for _, each in self._new_cycle)
+
+    def arm(self, trigger_index: int, axis_index: int, digits: str) -> None:
+        """Arm (1), disarm (0) or leave (X) each function."""
+        start, cycle = digits[0], digits[1:]
+        held_starts, command = self._controller.held_starts, _command(trigger_index)
+        if start == "1":
+            held_starts.set_condition(axis_index, command, TriggerAwaited())
+        elif start == "0":
+            held_starts.remove_condition(axis_index, command)
+        if cycle == "1":
+            self._new_cycle.add((trigger_index, axis_index))
+        elif cycle == "0":
+            self._new_cycle.discard((trigger_index, axis_index))
+
+    def capture(self, trigger_index: int) -> None:
+        """A trigger has come."""
+        for axis_index in range(self._controller.settings.axes_in_use):
+            self._controller.held_starts.fulfil(axis_index, _command(trigger_index))
+            if (trigger_index, axis_index) in self._new_cycle:
+                self._new_cycle.remove((trigger_index, axis_index))
+                restart_at_trigger(self._controller, axis_index, trigger_index)
+
+
+def _command(trigger_index: int) -> str:
+    return NAME + LETTERS[trigger_index]
+
+
+@handles(NAME)
+def trigger_function(controller: Controller, command: Command) -> Lines:
+    """TRGFN: a letter, then up to two digits; without digits a report, one line an axis.
+
+    Raises:
+        CommandError: INCORRECT DATA for too many digits, INVALID CONDITIONS FOR COMMAND while the trigger does not
+            have function H.
+    """
+    trigger_index = LETTERS.index(command.argument[0])
+    digits = command.argument[1:].replace(",", "")
+    indexes = axis_indexes(command, controller.settings.axes_in_use)
+    functions = controller.trigger_functions
+    if not digits:
+        name = _command(trigger_index)
+        return [ReplyLine(f"{index + 1}{name}", functions.digits(trigger_index, index)) for index in indexes]
+    if len(digits) > FUNCTIONS:
+        raise CommandError(INCORRECT_DATA)
+    if not controller.captures.is_trigger_capture(trigger_index):
+        raise CommandError(INVALID_CONDITIONS)
+    for axis_index in indexes:
+        functions.arm(trigger_index, axis_index, digits)
+    return None
