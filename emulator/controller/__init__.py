@@ -13,7 +13,7 @@ from emulator.controller.motion.following import advance, assignment, cycles, sa
 from emulator.controller.output import Output
 from emulator.controller.programs import debugging, flow, listings, on_conditions, program_select
 from emulator.controller.programs import store as program_store
-from emulator.controller.registration import captures, gowhen, registering, trigger_functions
+from emulator.controller.registration import captures, gowhen, registering, segment_holds, trigger_functions
 from emulator.controller.variables import data_programs, reading, timers, writing
 from emulator.controller.variables import store as variable_store
 from emulator.controller.wires import (
@@ -34,7 +34,7 @@ COMMAND_MODULES = (
     *(compiled_commands, profile_builder),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
     *(advance, assignment, cycles, sampling, shifts),
-    *(captures, gowhen, registering, trigger_functions),
+    *(captures, gowhen, registering, segment_holds, trigger_functions),
     *(debugging, flow, listings, on_conditions, program_select, program_store),
     *(data_programs, reading, timers, variable_store, writing),
     *(analog, input_effects, input_functions, inputs, output_functions, output_on_position, outputs),

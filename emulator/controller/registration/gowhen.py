@@ -108,7 +108,14 @@ Condition = PositionReached | MasterPositionReached | TimePassed | InputsMatch
 
 @handles(NAME)
 def gowhen(controller: Controller, command: Command) -> Lines:
-    """GOWHEN: one condition an axis; empty fields leave an axis alone.
+    """GOWHEN: one condition an axis; empty fields leave an axis alone."""
+    for axis_index, condition in conditions_of(controller, command).items():
+        controller.held_starts.set_condition(axis_index, NAME, condition)
+    return None
+
+
+def conditions_of(controller: Controller, command: Command) -> dict[int, Condition]:
+    """The conditions of a GOWHEN by axis index.
 
     Raises:
         CommandError: INCORRECT AXIS for more conditions than axes, INCORRECT DATA for what cannot be read, INVALID
@@ -123,10 +130,7 @@ def gowhen(controller: Controller, command: Command) -> Lines:
         fields = ["" for _ in range(first)] + fields * (axes if command.all_axes else 1)
     if any(fields[axes:]):
         raise CommandError(INCORRECT_AXIS)
-    conditions = {index: read_condition(controller, text, index) for index, text in enumerate(fields) if text}
-    for axis_index, condition in conditions.items():
-        controller.held_starts.set_condition(axis_index, NAME, condition)
-    return None
+    return {index: read_condition(controller, text, index) for index, text in enumerate(fields) if text}
 
 
 def _fields(argument: str) -> Iterator[str]:

@@ -7,6 +7,7 @@ all axes are meant, and a digit X leaves that function as it is.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -89,23 +90,29 @@ def _command(trigger_index: int) -> str:
 
 @handles(NAME)
 def trigger_function(controller: Controller, command: Command) -> Lines:
-    """TRGFN: a letter, then up to two digits; without digits a report, one line an axis.
+    """TRGFN: a letter, then up to two digits; without digits a report, one line an axis."""
+    if command.argument[1:].strip(","):
+        trigger_index, digits, axes = armed_by(controller, command)
+        for axis_index in axes:
+            controller.trigger_functions.arm(trigger_index, axis_index, digits)
+        return None
+    trigger_index = LETTERS.index(command.argument[0])
+    indexes = axis_indexes(command, controller.settings.axes_in_use)
+    name, functions = _command(trigger_index), controller.trigger_functions
+    return [ReplyLine(f"{index + 1}{name}", functions.digits(trigger_index, index)) for index in indexes]
+
+
+def armed_by(controller: Controller, command: Command) -> tuple[int, str, Sequence[int]]:
+    """The trigger a TRGFN with digits speaks of, its digits, and the axes.
 
     Raises:
-        CommandError: INCORRECT DATA for too many digits, INVALID CONDITIONS FOR COMMAND while the trigger does not
-            have function H.
+        CommandError: INCORRECT DATA for no or too many digits, INVALID CONDITIONS FOR COMMAND while the trigger does
+            not have function H.
     """
     trigger_index = LETTERS.index(command.argument[0])
     digits = command.argument[1:].replace(",", "")
-    indexes = axis_indexes(command, controller.settings.axes_in_use)
-    functions = controller.trigger_functions
-    if not digits:
-        name = _command(trigger_index)
-        return [ReplyLine(f"{index + 1}{name}", functions.digits(trigger_index, index)) for index in indexes]
-    if len(digits) > FUNCTIONS:
+    if not 0 < len(digits) <= FUNCTIONS:
         raise CommandError(INCORRECT_DATA)
     if not controller.captures.is_trigger_capture(trigger_index):
         raise CommandError(INVALID_CONDITIONS)
-    for axis_index in indexes:
-        functions.arm(trigger_index, axis_index, digits)
-    return None
+    return trigger_index, digits, axis_indexes(command, controller.settings.axes_in_use)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import islice, pairwise
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from emulator.controller.compiled.blending import Blended, CannotBlend, TimedMove, blend
@@ -19,10 +19,12 @@ SYSTEM_S = 2.24e-3
 ratios = st.fractions(0, 127, max_denominator=1000)
 
 
+@settings(deadline=None)
 @given(ratios, ratios, st.fractions(0, 1), st.integers(1, 100_000), st.sampled_from([1, -1]))
 def test_a_preset_segment_covers_its_distance_between_its_ratios(
     start: Fraction, goal: Fraction, share: Fraction, length: int, sign: int
 ) -> None:
+    assume(0 < share < 1)
     distance = (start + share * (goal - start)) * length
     segments, leaving = blend_ratio(RatioMove(sign * distance, sign * goal, length), sign * start)
     assert sum(segment.slave for segment in segments) == sign * distance

@@ -203,3 +203,54 @@ def test_a_condition_of_a_stopped_profile_is_forgotten(switch: _Switch) -> None:
     switch.release()
     session.advance(1.0)
     assert session.position() == 4000
+
+
+def test_gowhen_on_the_other_axis() -> None:
+    session = compiled("V1", "MC1", "GOBUF1", "GOWHEN(2PC>=8000)", "MC0", "D4000", "VF0", "GOBUF1", COMEXC="1")
+    session.ok("PRUN P")
+    session.advance(2.0)
+    assert session.axis_bit(26)
+    session.ok("2D8000", "2V8", "2A100", "2GO1")
+    session.until_rest(2)
+    here = session.position()
+    session.advance(0.1)
+    assert not session.axis_bit(26)
+    session.until_rest()
+    assert session.position() - here == pytest.approx(4000, abs=1 + COUNTS * 2 * ONE_UPDATE_EACH_NS / S)
+    session.ok("PUCOMP P")
+
+
+def test_a_time_begins_anew_at_each_pass() -> None:
+    session = compiled("PLOOP3", "GOWHEN(T=500)", *MOVE, "PLN1", COMEXC="1")
+    session.ok("PRUN P")
+    for passed in range(3):
+        session.advance(0.45)
+        assert session.position() == passed * 4000
+        session.until_rest() if passed == 2 else session.advance(1.165)
+    assert session.position() == 12000
+
+
+def test_a_trigger_lets_each_segment_go() -> None:
+    session = unit_with("PLOOP2", "1TRGFNA1", *MOVE, "PLN1", COMEXC="1")
+    assert session.error("PCOMP P") == "INVALID CONDITIONS FOR COMMAND"
+    session.ok("INFNC25-H", "INFEN1", "PCOMP P", "PRUN P")
+    for passed in (1, 2):
+        session.advance(0.5)
+        assert session.position() == 4000 * (passed - 1)
+        session.unit.do("press_trigger", trigger="A")
+        session.advance(1.5)
+        assert session.position() == 4000 * passed
+    assert not session.axis_bit(1)
+
+
+def test_a_stop_forgets_what_a_segment_waits_for() -> None:
+    session = compiled(*MOVE, "GOWHEN(2PC>1)", "GOBUF1", "VF0", "GOBUF1", COMEXC="1")
+    session.ok("PRUN P")
+    session.advance(2.0)
+    assert session.axis_bit(26)
+    session.ok("!K1")
+    session.advance(0.1)
+    assert not session.axis_bit(26)
+    session.ok("2GO1")
+    session.until_rest(2)
+    assert session.position() == 4000
