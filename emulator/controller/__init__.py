@@ -7,6 +7,7 @@ the axes.  A controller knows nothing of ports.
 from emulator.controller import communications, faults, line, reports, timing
 from emulator.controller.controller import Controller
 from emulator.controller.motion import gain_sets, go, homing, jogging, joystick, limits, servo, stopping
+from emulator.controller.motion.following import advance, assignment, cycles, sampling, shifts
 from emulator.controller.output import Output
 from emulator.controller.programs import debugging, flow, listings, on_conditions, program_select
 from emulator.controller.programs import store as program_store
@@ -30,6 +31,7 @@ COMMAND_MODULES = (
     *(communications, faults, line, reports, timing),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
     *(captures, gowhen, registering, trigger_functions),
+    *(advance, assignment, cycles, sampling, shifts),
     *(debugging, flow, listings, on_conditions, program_select, program_store),
     *(data_programs, reading, timers, variable_store, writing),
     *(analog, input_effects, input_functions, inputs, output_functions, output_on_position, outputs),

@@ -16,7 +16,7 @@ from .control_law import Gains, UnitFactors, gain_fields
 from .converter import DEFAULT_DAC_BITS, dac_fields
 from .encoder import ENCODER_SOURCE
 from .events import MAX_AXES, Event, Relation, Signal
-from .feedback_inputs import FeedbackInputs
+from .following_axes import FollowingAxes, MasterSource
 from .layout import UNIT, word_of
 from .machine_code import Calls, Kernel, OnBuild, load_kernel
 from .machinery import AxisHardware
@@ -33,6 +33,7 @@ from .readings import (
     FEEDBACK,
     NS_PER_MS,
     OFFSET,
+    DriveShutDown,
     axis_word,
 )
 from .status import CLEARED_BY_ENABLE
@@ -68,11 +69,7 @@ def _event(mask: int) -> Event:
         return _EVENT_OF.setdefault(mask, Event(mask))
 
 
-class DriveShutDown(RuntimeError):
-    """A profile was started on an axis whose drive is off."""
-
-
-class Engine(FeedbackInputs):
+class Engine(FollowingAxes):
     """The servo of one unit. Drives are off, wires open and gains those of power-up until set."""
 
     def __init__(
@@ -103,6 +100,7 @@ class Engine(FeedbackInputs):
             UNIT,
             {"axis_count": len(axes), "drive_off_to_zero": drive_off_to_zero, **dac_fields(dac_bits)},
         )
+        self._init_following(len(axes))
         for axis_index, hardware in enumerate(axes):
             self._power_up(axis_index, hardware)
         self.set_rates(rates)
@@ -121,10 +119,11 @@ class Engine(FeedbackInputs):
         self.set_target_zone(axis_index, distance_counts=50, velocity_counts_s=hardware.counts_per_rev, timeout_ms=1000)
 
     def power_up(self) -> None:
-        """Switch the electronics off and on: drives off, counters at 0, latched status gone; shafts, wires and time go
-        on. Gains, limits and zones keep their values until they are set again."""
+        """Switch the electronics off and on: drives off, counters at 0, latched status and masters gone; shafts, wires
+        and time go on. Gains, limits and zones keep their values until they are set again."""
         for axis_index, ints in enumerate(self._ints):
             self.disable(axis_index)
+            self.set_master(axis_index, source=MasterSource.NONE)
             ints[_LATCHED] = ints[_EXTRA] = ints[_EVENTS] = 0
             ints[_SOURCE] = ENCODER_SOURCE
             ints[COMMANDED] = ints[OFFSET] = ints[ENCODER_OFFSET] = ints[FEEDBACK] = ints[ENCODER]
@@ -191,6 +190,8 @@ class Engine(FeedbackInputs):
         write_fields(self._memory.unit, UNIT, fields)
         self.scope.note_rates()
         self._set_steps()
+        for axis_index in range(len(self._ints)):
+            self._retime_following(axis_index)
 
     # Faults
 
@@ -234,6 +235,7 @@ class Engine(FeedbackInputs):
         if self._memory.reserve_segments(len(raw)):
             self._bind()
         self._memory.store_segments(axis_index, raw)
+        self._leave_following(axis_index)
         self._profiles[axis_index] = raw
         duration_s = profile_duration(raw)
         self._write(
@@ -249,6 +251,7 @@ class Engine(FeedbackInputs):
 
     def cancel_profile(self, axis_index: int) -> None:
         """Give up the profile at once: the commanded position stays where it is."""
+        self._leave_following(axis_index)
         self._write(axis_index, profile_active=0, commanded_velocity=0.0, commanded_acceleration=0.0, settling=0)
 
     def profile_state(self, axis_index: int) -> State:
@@ -257,12 +260,16 @@ class Engine(FeedbackInputs):
         ints = self._ints[axis_index]
         if not ints[ACTIVE]:
             return State(float(ints[COMMANDED] - ints[OFFSET]), 0.0, 0.0)
+        if self.is_following(axis_index):
+            return self._slave_state(axis_index)
         elapsed_s = (self.next_trajectory_ns - ints[_START]) / NS_PER_S
         position, velocity, acceleration = evaluate(self._profiles[axis_index], elapsed_s)
         return State(position - ints[OFFSET], velocity, acceleration)
 
     def profile_target(self, axis_index: int) -> float | None:
         """Reported counts at which the running profile ends; None for one that goes on for ever."""
+        if self.is_following(axis_index):
+            return self._slave_end(axis_index)
         segments = self._profiles[axis_index]
         duration_s = profile_duration(segments)
         if duration_s == float("inf"):
@@ -399,6 +406,7 @@ class Engine(FeedbackInputs):
         self._memory.units["armed_watches"] = self._memory.watches["armed"].sum()
         self._memory.units["fired_watches"] = 0
         self._memory.axes["watch_mask"] = 0
+        self._memory.axes["following_watch_mask"] = 0
 
     def disarm_watch(self, slot: int) -> None:
         """Disarm one value watch."""

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from decimal import ROUND_DOWN, Decimal
 from functools import partial
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles, require_rest
 from emulator.controller.faults import CLEARED_BY_GO, clear_without_cause
+from emulator.controller.motion.following import moves
+from emulator.controller.motion.following.assignment import is_following
+from emulator.controller.motion.following.go_wait import motion_wait
 from emulator.controller.motion.limits import limit_in_the_way
-from emulator.controller.waits import MotionWait
+from emulator.controller.motion.targets import preset_target
 from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
 from protocol.command import Command
 from protocol.errors import (
@@ -46,14 +49,33 @@ CLEARED_BY_LEGAL_GO = (
 def go(controller: Controller, command: Command) -> Lines:
     """GO: start the loaded profile on the axes named, or on all whose drive is on."""
     axes = _axes_to_start(controller, command)
+    controller.held_starts.withdraw(axes)
     for axis_index in axes:
-        check_s_curve(controller, axis_index)
+        check_move(controller, axis_index)
     controller.faults.clear(CLEARED_BY_GO)
     for axis_index in axes:
-        controller.held_starts.start((axis_index,), partial(start, controller, axis_index))
+        begin_at = _begin_at(controller, axis_index) if is_following(controller, axis_index) else None
+        controller.held_starts.start((axis_index,), partial(start, controller, axis_index), begin_at=begin_at)
     if not controller.settings.flag("COMEXC") and axes:
-        controller.interpreter.wait_for(MotionWait(tuple(axes)))
+        controller.interpreter.wait_for(motion_wait(controller, axes))
     return None
+
+
+def _begin_at(controller: Controller, axis_index: int) -> Callable[[int], None]:
+    """What starts a slave where its master comes to a position."""
+    return lambda master_travel: start(controller, axis_index, at_master=master_travel)
+
+
+def check_move(controller: Controller, axis_index: int) -> None:
+    """Refuse a move that the settings of its axis do not make, in time (A, AD ...) or by its master (FOLRN ...).
+
+    Raises:
+        CommandError: INVALID CONDITIONS FOR S_CURVE ..., and what ``following.moves.check_go`` refuses.
+    """
+    if is_following(controller, axis_index):
+        moves.check_go(controller, axis_index)
+    else:
+        check_s_curve(controller, axis_index)
 
 
 def _axes_to_start(controller: Controller, command: Command) -> list[int]:
@@ -122,36 +144,58 @@ def check_s_curve(controller: Controller, axis_index: int, family: str = "") -> 
         raise s_curve_deceleration(axis_index + 1)
 
 
-def start(controller: Controller, axis_index: int) -> None:
+def start(controller: Controller, axis_index: int, *, at_master: int | None = None) -> None:
     """Start one axis, moving or not: nothing moves into an active limit; a preset move that cannot be had from the
-    present motion leaves that as it is, with AS bit 30 and ER bit 10 (assumed M)."""
+    present motion leaves that as it is, with AS bit 30 and ER bit 10 (assumed M).
+
+    ``at_master`` is a master position to come, at which a slave is to begin.
+    """
+    following = is_following(controller, axis_index)
+    direction = (moves.direction if following else _direction)(controller, axis_index)
+    segments: Segments = ()
+    if not following and limit_in_the_way(controller, axis_index, direction) is None:
+        try:
+            segments = _profile(controller, axis_index, direction)
+        except TargetOvershot:
+            controller.engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
+            controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
+            return
+    if not allow_motion(controller, axis_index, direction):
+        return
+    if following:
+        moves.start_move(controller, axis_index, start_at=at_master)
+    elif segments:
+        controller.registration.watch(axis_index)
+        controller.engine.start_profile(axis_index, segments)
+
+
+def _direction(controller: Controller, axis_index: int) -> int:
+    """Which way a move in time would go: +1, -1, or 0 for no move."""
+    if not controller.settings.flag("MC", axis_index):
+        distance = preset_target(controller, axis_index) - controller.engine.profile_state(axis_index).position
+        return (distance > 0) - (distance < 0)
+    if controller.settings.counts("V", axis_index) == 0:
+        return 0
+    return 1 if controller.settings.counts("D", axis_index) >= 0 else -1
+
+
+def allow_motion(controller: Controller, axis_index: int, direction: int) -> bool:
+    """Whether no active limit lies in a direction: then what earlier moves have left in AS and ER is cleared.
+
+    Otherwise the limit is latched, AS 15 to 18 and ER 2 or 3.
+    """
     engine = controller.engine
-    if controller.settings.flag("MC", axis_index):
-        direction = 1 if controller.settings.counts("D", axis_index) >= 0 else -1
-        if controller.settings.counts("V", axis_index) == 0:
-            direction = 0
-    else:
-        distance = preset_target(controller, axis_index) - engine.profile_state(axis_index).position
-        direction = (distance > 0) - (distance < 0)
     hit = limit_in_the_way(controller, axis_index, direction)
     if hit is not None:
         engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
-        return
-    try:
-        segments = _profile(controller, axis_index, direction)
-    except TargetOvershot:
-        engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
-        controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
-        return
+        return False
     in_zone = engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
     engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
     clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
     if in_zone:
         clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
-    if segments:
-        controller.registration.watch(axis_index)
-        engine.start_profile(axis_index, segments)
+    return True
 
 
 def _profile(controller: Controller, axis_index: int, direction: int) -> Segments:
@@ -168,17 +212,6 @@ def _profile(controller: Controller, axis_index: int, direction: int) -> Segment
     if velocity == 0 or (target == state.position and state.velocity == 0):
         return ()
     return plan_preset(state.position, state.velocity, target, velocity, *ramps(controller, axis_index))
-
-
-def preset_target(controller: Controller, axis_index: int) -> int:
-    """Where a preset move ends, whole counts: D x SCLD truncated; relative to the commanded position with MA0.
-
-    A move that pre-empts another counts from where the axis is commanded to be at that moment (assumed).
-    """
-    counts = int(controller.settings.counts("D", axis_index).to_integral_value(ROUND_DOWN))
-    if controller.settings.flag("MA", axis_index):
-        return counts
-    return controller.engine.commanded_position(axis_index) + counts
 
 
 def _continuous(controller: Controller, axis_index: int, direction: int) -> Segments:

@@ -41,7 +41,9 @@ class Pausing:
         stop_axes(controller, moving, "AD")
 
     def _resumable(self, axis_index: int) -> bool:
-        """Homing, jogging and the joystick do not go on after a pause (assumed)."""
+        """Homing, jogging, the joystick and Following moves do not go on after a pause (assumed)."""
+        if self._controller.engine.is_following(axis_index):
+            return False
         by_hand = any(self._controller.settings.flag(mode, axis_index) for mode in ("JOG", "JOY"))
         return not by_hand and not self._controller.homing.active(axis_index)
 

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
+from emulator.controller.motion.following.assignment import has_master
+from emulator.controller.motion.following.ratio import master_counts
 from emulator.controller.registration.captures import LETTERS
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, CommandError
@@ -53,8 +55,12 @@ class TriggerFunctions:
         return f"{int(starts)}{int(self.awaits_new_cycle(trigger_index, axis_index))}"
 
     def awaits_new_cycle(self, trigger_index: int, axis_index: int) -> bool:
-        """A trigger will begin a new master cycle of an axis (FS bit 13)."""
+        """A trigger will begin a new master cycle of an axis."""
         return (trigger_index, axis_index) in self._new_cycle
+
+    def awaits_cycle(self, axis_index: int) -> bool:
+        """Some trigger will (FS bit 13)."""
+        return any(axis_index == waiting for _, waiting in self._new_cycle)
 
     def arm(self, trigger_index: int, axis_index: int, digits: str) -> None:
         """Arm (1), disarm (0) or leave (X) each function."""
@@ -75,6 +81,13 @@ class TriggerFunctions:
             self._controller.held_starts.fulfil(axis_index, _command(trigger_index))
             if (trigger_index, axis_index) in self._new_cycle:
                 self._new_cycle.remove((trigger_index, axis_index))
+                new_cycle(self._controller, axis_index)
+
+
+def new_cycle(controller: Controller, axis_index: int) -> None:
+    """As FMCNEW: the master position is FMCP when the trigger is told; nothing without a master."""
+    if has_master(controller, axis_index):
+        controller.engine.restart_master_cycle(axis_index, master_counts(controller.settings, "FMCP", axis_index))
 
 
 def _command(trigger_index: int) -> str:
