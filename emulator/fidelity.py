@@ -18,6 +18,7 @@ from typing import Any, Final, Protocol
 import msgspec
 from msgspec import inspect
 
+from emulator.encoder_motion_tables import MOTION_KINDS
 from emulator.machine import Machine, VelocityDrive
 from emulator.machine_settings import DEFAULT_SETTINGS
 from emulator.plant_tables import KINDS
@@ -93,7 +94,13 @@ def entries(machine: Machine | None = None) -> list[Entry]:
         if table is not VelocityDrive
         for entry in _table_entries(table(), inspect.type_info(table), f"axis1.plant ({kind}).")
     ]
-    return [*(entry for entry in found if not entry.key.startswith("axis2.")), *other_plants, *_default_entries()]
+    motions = [
+        entry
+        for kind, table in MOTION_KINDS.items()
+        for entry in _table_entries(table(), inspect.type_info(table), f"axis1.encoder_motion ({kind}).")
+    ]
+    shown = [entry for entry in found if not entry.key.startswith("axis2.")]
+    return [*shown, *other_plants, *motions, *_default_entries()]
 
 
 def render(rows: Iterable[CatalogueRow] = ()) -> str:

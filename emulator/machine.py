@@ -26,6 +26,7 @@ from emulator.machine_tables import (
     Encoder,
     EncoderInput,
     ErrorLevels,
+    Following,
     Identity,
     InputsOutputs,
     Limits,
@@ -110,6 +111,7 @@ class Machine(Table, frozen=True):
     timing: Annotated[Timing, known("how fast commands and programs run", "assumed", "L")] = Timing()
     servo: Annotated[Servo, known("the servo processor", "assumed", "L")] = Servo()
     encoder: Annotated[EncoderInput, known("the encoder inputs", "assumed", "L")] = EncoderInput()
+    following: Annotated[Following, known("how masters are measured", "assumed", "M")] = Following()
     axis1: Annotated[Axis, known("what is connected to axis 1", "design")] = Axis()
     axis2: Annotated[Axis, known("what is connected to axis 2", "design")] = Axis()
     triggers: Annotated[Triggers, known("what the trigger inputs are connected to", "design")] = Triggers()

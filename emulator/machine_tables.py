@@ -17,6 +17,7 @@ from typing import Annotated, Final, Literal
 
 import msgspec
 
+from emulator.encoder_motion_tables import EncoderMotionTable, Shaft
 from emulator.plant_tables import PlantTable, VelocityDrive
 from emulator.table_fields import Table, known
 
@@ -313,6 +314,24 @@ class Servo(Table, frozen=True):
     ssfr_table: Annotated[RateTable, known("update periods", "assumed", "L")] = RateTable()
 
 
+class Following(Table, frozen=True):
+    """How a master is measured, where the guide leaves it open."""
+
+    predictor: Annotated[
+        Literal["two_samples", "one_sample"],
+        known(
+            "over what FPPEN1 measures the master velocity: 2 m(k) - m(k-2), or 3 m(k) - 2 m(k-1)",
+            "inferred",
+            "M",
+            "PG 214: over 2 sample periods",
+        ),
+    ] = "two_samples"
+    filter_order: Annotated[
+        Literal[1, 2],
+        known("order of the low-pass of FFILT, its corner (-3 dB) kept", "assumed", "M", "corners PG 215"),
+    ] = 1
+
+
 class EncoderInput(Table, frozen=True):
     """The encoder input stage, common to both axes."""
 
@@ -395,6 +414,7 @@ class Axis(Table, frozen=True):
 
     plant: Annotated[PlantTable, known("drive, motor and load", "design")] = VelocityDrive()
     encoder: Annotated[Encoder, known("the encoder", "design")] = Encoder()
+    encoder_motion: Annotated[EncoderMotionTable, known("what turns the encoder", "design")] = Shaft()
     wires: Annotated[AxisWires, known("its contacts", "design")] = AxisWires()
     travel: Annotated[Travel, known("its switches along the travel", "design")] = Travel()
     ani: Annotated[AnalogSensor, known("its analog position sensor", "design")] = AnalogSensor()
@@ -406,7 +426,8 @@ Volts = Annotated[float, msgspec.Meta(ge=0.0, le=2.5)]
 class Trigger(Table, frozen=True):
     """What a trigger input is connected to: a contact alone, or a sensor that sees marks on an axis.
 
-    Positions are revolutions of the load from where it stands at start; over a mark the contact changes over.
+    Positions are revolutions of the load from where it stands at start, or of what else turns the encoder of the axis;
+    over a mark the contact changes over.
     """
 
     marks_on: Annotated[

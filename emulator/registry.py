@@ -13,7 +13,7 @@ from emulator.controller import Controller
 from emulator.controller import words as status
 from emulator.controller.wires.panel_commands import press, release
 from emulator.controller.wires.thumbwheel_bank import dial
-from emulator.engine import EncoderWiring
+from emulator.engine import EncoderMotion, EncoderWiring
 from emulator.engine.trace import Source
 from emulator.faults import FAULTS, Fault
 from emulator.parameters import Parameter, Value, checked
@@ -199,8 +199,45 @@ AXIS_SIGNALS: tuple[AxisSignal, ...] = (
         lambda c, i: c.engine.ani_volts(i),
         None,
     ),
+    AxisSignal(
+        "master.position",
+        "position in the master cycle",
+        "counts",
+        lambda c, i: c.engine.master_position(i),
+        "cycle_counts",
+    ),
+    AxisSignal(
+        "master.cycle",
+        "master cycles finished since the last restart",
+        "cycles",
+        lambda c, i: c.engine.master_cycle_number(i),
+        "cycle_number",
+    ),
+    AxisSignal(
+        "master.velocity",
+        "velocity of the filtered master",
+        "counts/s",
+        lambda c, i: c.engine.master_velocity(i),
+        "master_velocity",
+    ),
+    AxisSignal(
+        "slave.position",
+        "commanded position of the slave as reported",
+        "counts",
+        lambda c, i: c.engine.slave_position(i),
+        "commanded_counts",
+        minus="offset_counts",
+    ),
+    AxisSignal("slave.shift", "net phase shift", "counts", lambda c, i: c.engine.net_shift(i), "shift_counts"),
+    AxisSignal(
+        "slave.ratio",
+        "ratio of the slave at the last system update",
+        "counts/count",
+        lambda c, i: c.engine.present_ratio(i),
+        "ratio_now",
+    ),
     AxisSignal("drive", "the drive is on", "", lambda c, i: c.engine.is_enabled(i), "enabled"),
-    AxisSignal("moving", "a profile is running", "", lambda c, i: c.engine.is_moving(i), "profile_active"),
+    AxisSignal("moving", "a profile is running", "", lambda c, i: c.engine.is_moving(i), "profile_active", mask=3),
     AxisSignal("settling", "waiting for the target zone", "", lambda c, i: c.engine.is_settling(i), "settling"),
     AxisSignal("status", "AS, bit 1 first", "", status.axis_status, "status"),
 )
@@ -379,6 +416,20 @@ def _wire_encoder(controller: Controller, axis: int, wiring: str) -> None:
     controller.engine.wire_encoder(_axis_index(controller, axis), ENCODER_WIRINGS[wiring])
 
 
+def _drive_encoder(controller: Controller, axis: int, velocity: float, ramp: float) -> None:
+    engine, axis_index = controller.engine, _axis_index(controller, axis)
+    present = engine.encoder_velocity(axis_index)
+    engine.move_encoder(axis_index, EncoderMotion(velocity, start_velocity_counts_s=present, ramp_s=ramp))
+
+
+def _turn_encoder(controller: Controller, axis: int, counts: int, velocity: float) -> None:
+    controller.engine.move_encoder(_axis_index(controller, axis), EncoderMotion.by(counts, velocity))
+
+
+def _release_encoder(controller: Controller, axis: int) -> None:
+    controller.engine.release_encoder(_axis_index(controller, axis))
+
+
 def _slip_encoder(controller: Controller, axis: int, counts: int) -> None:
     controller.engine.slip_encoder(_axis_index(controller, axis), counts)
 
@@ -473,6 +524,27 @@ ACTIONS: Mapping[str, Action] = {
             (Parameter("axis", int, "1 or 2"),),
             _release_ani,
         ),
+        Action(
+            "drive_encoder",
+            "turn an encoder by something else than its motor (a conveyor, say), from now on at a velocity",
+            (
+                AXIS,
+                Parameter("velocity", float, "negative turns it backwards, 0 stops it", unit="counts/s"),
+                Parameter("ramp", float, "time until it has that velocity", unit="s"),
+            ),
+            _drive_encoder,
+        ),
+        Action(
+            "turn_encoder",
+            "turn an encoder by some counts by something else than its motor; it rests then",
+            (
+                AXIS,
+                Parameter("counts", int, "forwards positive", unit="counts"),
+                Parameter("velocity", float, "magnitude; 0 turns it at once", unit="counts/s"),
+            ),
+            _turn_encoder,
+        ),
+        Action("release_encoder", "let the axis turn its encoder again", (AXIS,), _release_encoder),
         Action("press_key", "press a key of the operator panel", (Parameter("key", str, "its label"),), press),
         Action(
             "release_key",

@@ -7,12 +7,14 @@ from decimal import Decimal
 
 from emulator.controller.changes import Changes
 from emulator.controller.settings import Settings
+from emulator.encoder_motion_tables import engine_motion
 from emulator.engine import (
     AnalogSensor,
     AxisHardware,
     EncoderTraits,
     Engine,
     MarkSensor,
+    MasterMeasurement,
     ServoRates,
     Travel,
     UnitFactors,
@@ -48,6 +50,10 @@ def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None)
         unit_factors=unit_factors(machine),
         drive_off_to_zero=machine.drive_off_output == "zero",
         output_delay_s=machine.servo.output_delay_us * 1e-6,
+        measurement=MasterMeasurement(
+            one_sample_predictor=machine.following.predictor == "one_sample",
+            filter_order=machine.following.filter_order,
+        ),
     )
     for trigger_index, trigger in enumerate((machine.triggers.a, machine.triggers.b)):
         engine.fit_mark_sensor(trigger_index, mark_sensor(trigger))
@@ -101,4 +107,5 @@ def axis_hardware(axis: Axis, *, max_rate_counts_s: float = math.inf, ani_fitted
             noise_seed=encoder.noise_seed,
             max_rate_counts_s=max_rate_counts_s,
         ),
+        motion=engine_motion(axis.encoder_motion),
     )

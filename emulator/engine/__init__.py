@@ -6,9 +6,10 @@ profiles it runs.
 
 from .control_law import Gains, UnitFactors
 from .encoder import AnalogSensor, EncoderTraits, EncoderWiring
+from .encoder_motion import EncoderMotion
 from .engine import Engine
 from .events import ENABLE_MASK, Event, Relation, Signal, Wire, wire_mask
-from .following_axes import MasterSource, NoMaster
+from .following_axes import MasterMeasurement, MasterSource, NoMaster
 from .machinery import AxisHardware
 from .plants import ElasticCoupling, HydraulicCylinder, Plant, PlantError, TorqueDrive, VelocityDrive
 from .profile import (
@@ -48,6 +49,7 @@ __all__ = [
     "DistanceMismatch",
     "DriveShutDown",
     "ElasticCoupling",
+    "EncoderMotion",
     "EncoderTraits",
     "EncoderWiring",
     "Engine",
@@ -56,6 +58,7 @@ __all__ = [
     "HydraulicCylinder",
     "InvalidSCurve",
     "MarkSensor",
+    "MasterMeasurement",
     "MasterSource",
     "NoMaster",
     "Plant",

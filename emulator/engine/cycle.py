@@ -13,6 +13,7 @@ import math
 from .control_law import closed_loop, dither, limited, open_loop
 from .converter import convert_output
 from .encoder import OPEN_LOOP, take_feedback
+from .encoder_motion import drive_encoder
 from .events import (
     EVENT_HARD_LIMIT,
     EVENT_MOVE_ENDED,
@@ -67,6 +68,7 @@ def hold_still(axis: Record) -> None:
     """No profile any more: the commanded position stays where it is."""
     axis["profile_active"] = 0
     axis["shift_active"] = 0
+    axis["ratio_now"] = 0.0
     axis["commanded_velocity"] = 0.0
     axis["commanded_acceleration"] = 0.0
 
@@ -170,6 +172,8 @@ def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, traj
             follow_profile(axis, segments, now_ns)
         elif follow_master(unit, axis, segments, now_ns):
             end_move(axis, now_ns)
+    if axis["encoder_driven"] != 0:
+        drive_encoder(axis, now_ns)
     take_feedback(axis)
     if axis["switches_fitted"] != 0:
         operate_switches(unit, axis)

@@ -79,10 +79,10 @@ class EncoderTraits:
             "noise_state": noise_state(self.noise_seed, axis_index),
         }
 
-    def step_fields(self, period_s: float, *, load_apart: bool) -> dict[str, float]:
-        """Fields of the axis record that depend on the servo period and on the plant."""
+    def step_fields(self, period_s: float, *, load_apart: bool, driven: bool = False) -> dict[str, float]:
+        """Fields of the axis record that depend on the servo period, on the plant, and on what turns the encoder."""
         limit = max(1.0, self.max_rate_counts_s * period_s)
-        simple = not load_apart and self.noise_counts_rms == 0.0
+        simple = not load_apart and not driven and self.noise_counts_rms == 0.0
         return {
             "encoder_step_limit": limit,
             "encoder_easy_step": min(limit + 1.0, EASY_STEP_COUNTS) if simple else -1.0,
@@ -152,12 +152,16 @@ def count_to(axis: Record, reading: int) -> None:
 
 @seldom
 def read_with_care(axis: Record) -> None:
-    """Read an encoder that has moved far, is noisy, or belongs to a machine whose load is not where its motor is."""
+    """Read an encoder that has moved far, is noisy, is driven by something else, or belongs to a machine whose load is
+    not where its motor is."""
     keep_in_world(axis)
     if axis["load_apart"] != 0:
         drag_load(axis)
-    position = place_of_load(axis) if axis["encoder_on_load"] != 0 else axis["true_position"]
-    counts = position * axis["counts_per_rev"] + axis["encoder_phase"]
+    if axis["encoder_driven"] != 0:
+        counts = axis["driven_counts"] + axis["encoder_phase"]
+    else:
+        position = place_of_load(axis) if axis["encoder_on_load"] != 0 else axis["true_position"]
+        counts = position * axis["counts_per_rev"] + axis["encoder_phase"]
     if axis["encoder_noise"] > 0.0:
         counts += encoder_noise(axis)
     count_to(axis, math.floor(counts))

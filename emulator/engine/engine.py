@@ -16,7 +16,7 @@ from .control_law import Gains, UnitFactors, gain_fields
 from .converter import DEFAULT_DAC_BITS, dac_fields
 from .encoder import ENCODER_SOURCE
 from .events import MAX_AXES, Event, Relation, Signal
-from .following_axes import FollowingAxes, MasterSource
+from .following_axes import FollowingAxes, MasterMeasurement, MasterSource
 from .layout import UNIT, word_of
 from .machine_code import Calls, Kernel, OnBuild, load_kernel
 from .machinery import AxisHardware
@@ -82,6 +82,7 @@ class Engine(FollowingAxes):
         unit_factors: UnitFactors | None = None,
         drive_off_to_zero: bool = False,
         output_delay_s: float = 0.0,
+        measurement: MasterMeasurement | None = None,
     ) -> None:
         """`output_delay_s` is the time from a servo sample to the moment at which the output computed in it appears at
         the terminals; more than a sample counts as a whole one."""
@@ -100,7 +101,7 @@ class Engine(FollowingAxes):
             UNIT,
             {"axis_count": len(axes), "drive_off_to_zero": drive_off_to_zero, **dac_fields(dac_bits)},
         )
-        self._init_following(len(axes))
+        self._init_following(len(axes), measurement or MasterMeasurement())
         for axis_index, hardware in enumerate(axes):
             self._power_up(axis_index, hardware)
         self.set_rates(rates)

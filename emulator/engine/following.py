@@ -7,7 +7,8 @@ velocity is constant (6000 Series Programmer's Guide p. 214, where "2 sample per
 the estimate 2 m(k) - m(k-2) are inferred).
 
 The filter is of first order (assumed), exact for a master held between samples: with a share d = exp(-Ts / tau) of its
-lag left after a period Ts it lags a master of constant velocity v by v Ts d / (1 - d), which tends to v tau.
+lag left after a period Ts it lags a master of constant velocity v by v Ts d / (1 - d), which tends to v tau. Two stages
+(`following.filter_order`) have the corner of each raised so that that of both is the one asked for.
 
 Whole master counts go through the exact sums of `ratio_rows`, the fraction a filter leaves through a float.
 """
@@ -41,6 +42,10 @@ ROW_END = 3
 NEGLIGIBLE_LAG_COUNTS = 1e-9
 """A filter's lag this small is none (design choice): a master that rests has then come to rest behind it too."""
 
+ONE_SAMPLE = 1
+TWO_SAMPLES = 2
+"""Samples over which FPPEN1 measures the master velocity."""
+
 UPDATES_TO_ARRIVE = 2
 """System updates from computing a slave position to reaching it. Documented (Programmer's Guide p. 214)."""
 
@@ -67,6 +72,23 @@ def count_cycle(axis: Record, moved: int) -> None:
         axis["cycle_number"] += cycles
 
 
+@kernel
+def filter_lag(axis: Record, moved: int) -> float:
+    """How far the filtered master is behind, after one more sample; stages of equal decay one behind the other."""
+    decay = axis["master_decay"]
+    before = axis["first_master_lag"]
+    first = decay * (before + moved)
+    if abs(first) < NEGLIGIBLE_LAG_COUNTS:
+        first = 0.0
+    axis["first_master_lag"] = first
+    if axis["filter_stages"] == 1:
+        return float(first)
+    second = decay * (axis["master_lag"] - before + moved - (first - before))
+    if abs(second) < NEGLIGIBLE_LAG_COUNTS:
+        second = 0.0
+    return float(first + second)
+
+
 @seldom
 def take_master(unit: Record, axis: Record, axes: Records) -> None:
     """Sample the master, filter it, predict it."""
@@ -74,9 +96,7 @@ def take_master(unit: Record, axis: Record, axes: Records) -> None:
     moved = axis["master_sign"] * (raw - axis["master_raw"])
     axis["master_raw"] = raw
     travel = moved + axis["master_moved"]
-    lag = axis["master_decay"] * (axis["master_lag"] + moved)
-    if abs(lag) < NEGLIGIBLE_LAG_COUNTS:
-        lag = 0.0
+    lag = filter_lag(axis, moved)
     lag_change = lag - axis["previous_master_lag"]
     axis["previous_master_lag"] = axis["master_lag"]
     axis["master_lag"] = lag
@@ -86,9 +106,12 @@ def take_master(unit: Record, axis: Record, axes: Records) -> None:
     count_cycle(axis, moved)
     used = axis["master_counts"]
     part = -lag
-    if axis["prediction"] != 0:
+    if axis["prediction"] == TWO_SAMPLES:
         used += travel
         part -= lag_change
+    elif axis["prediction"] == ONE_SAMPLE:
+        used += 2 * moved
+        part -= 2.0 * (lag - axis["previous_master_lag"])
     carry = math.floor(part)
     axis["master_used"] = used + carry
     axis["master_used_part"] = part - carry

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
 
-from .following import MASTER_ANI, MASTER_COMMANDED, MASTER_ENCODER, MASTER_NONE, raw_master
+from .following import MASTER_ANI, MASTER_COMMANDED, MASTER_ENCODER, MASTER_NONE, ONE_SAMPLE, TWO_SAMPLES, raw_master
 from .following_readings import FollowingReadings
 from .following_status import FOLLOWING, PHASE_END, PHASE_HELD, PHASE_NONE, PHASE_WAITING
 from .layout import UNIT, word_of
@@ -52,6 +52,20 @@ class MasterSource(IntEnum):
     ENCODER = MASTER_ENCODER
     ANI = MASTER_ANI
     COMMANDED = MASTER_COMMANDED
+
+
+@dataclass(frozen=True, slots=True)
+class MasterMeasurement:
+    """How masters are measured, where the guide leaves it open."""
+
+    one_sample_predictor: bool = False
+    """FPPEN1 takes the master velocity from one sample instead of two."""
+    filter_order: int = 1
+    """Order of the low-pass of FFILT, 1 or 2."""
+
+
+CORNER_OF_STAGE = {1: 1.0, 2: 1.0 / math.sqrt(math.sqrt(2.0) - 1.0)}
+"""Corner of each stage over that of the whole filter (-3 dB), by order."""
 
 
 class NoMaster(RuntimeError):
@@ -95,12 +109,14 @@ def _parts(value: float) -> Fraction:
 class FollowingAxes(FollowingReadings, ABC):
     """The Following half of `Engine`."""
 
-    def _init_following(self, axis_count: int) -> None:
+    def _init_following(self, axis_count: int, measurement: MasterMeasurement) -> None:
+        self._measurement = measurement
         self._moves: list[RatioMove | None] = [None] * axis_count
         self._shifts: list[Segments] = [()] * axis_count
         self._corners_hz: list[float | None] = [None] * axis_count
         for axis_index in range(axis_count):
-            self._write(axis_index, master_sign=1, prediction=1, ratio_direction=1)
+            self._write(axis_index, master_sign=1, filter_stages=measurement.filter_order, ratio_direction=1)
+            self.set_prediction(axis_index, True)
 
     @property
     @abstractmethod
@@ -130,7 +146,7 @@ class FollowingAxes(FollowingReadings, ABC):
         self._write(axis_index, master_source=source, master_index=master_index, master_sign=1 if sign >= 0 else -1)
         raw = raw_master(self._memory.axes[axis_index], self._memory.axes)
         self._write(axis_index, master_raw=raw, master_counts=0, master_moved=0, master_used=0, master_used_part=0.0)
-        self._write(axis_index, master_lag=0.0, previous_master_lag=0.0, master_velocity=0.0)
+        self._write(axis_index, master_lag=0.0, first_master_lag=0.0, previous_master_lag=0.0, master_velocity=0.0)
         self._write(axis_index, cycle_counts=0, cycle_number=0, ratio_phase=PHASE_NONE, shift_counts=0.0)
         self._moves[axis_index] = None
         slaves = sum(ints[_SOURCE] != MASTER_NONE for ints in self._ints)
@@ -144,12 +160,14 @@ class FollowingAxes(FollowingReadings, ABC):
         """FFILT: corner of the low-pass on the master position, Hz; None: no filter."""
         self._corners_hz[axis_index] = corner_hz
         period_s = self.rates.system_ns / NS_PER_S
-        decay = 0.0 if corner_hz is None else math.exp(-2.0 * math.pi * corner_hz * period_s)
+        each_hz = (corner_hz or 0.0) * CORNER_OF_STAGE[self._measurement.filter_order]
+        decay = 0.0 if corner_hz is None else math.exp(-2.0 * math.pi * each_hz * period_s)
         self._write(axis_index, master_decay=decay)
 
     def set_prediction(self, axis_index: int, on: bool) -> None:
         """FPPEN: extrapolate the master position over the two sample periods the slave needs."""
-        self._write(axis_index, prediction=on)
+        samples = ONE_SAMPLE if self._measurement.one_sample_predictor else TWO_SAMPLES
+        self._write(axis_index, prediction=samples if on else 0)
 
     def set_master_cycle(self, axis_index: int, length: int) -> None:
         """FMCLEN: length of the master cycle, counts; 0 = endless."""
@@ -314,7 +332,8 @@ class FollowingAxes(FollowingReadings, ABC):
     def _leave_following(self, axis_index: int) -> None:
         """The axis moves by something else, or not at all; the shift stays readable."""
         self._moves[axis_index] = None
-        self._write(axis_index, shift_active=0, shift_velocity=0.0, shift_acceleration=0.0, ratio_phase=PHASE_NONE)
+        self._write(axis_index, shift_active=0, shift_velocity=0.0, shift_acceleration=0.0)
+        self._write(axis_index, ratio_phase=PHASE_NONE, ratio_now=0.0)
 
     def _require_master(self, axis_index: int) -> None:
         if not self._ints[axis_index][ENABLED]:

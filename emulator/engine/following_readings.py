@@ -15,6 +15,7 @@ from .readings import ACTIVE, COMMANDED, OFFSET, axis_word
 _COUNTS, _CYCLE, _NUMBER = axis_word("master_counts"), axis_word("cycle_counts"), axis_word("cycle_number")
 _MASTER_VELOCITY = axis_word("master_velocity")
 _RATIO_COUNT, _RATIO_INDEX = axis_word("ratio_count"), axis_word("ratio_index")
+_RATIO = axis_word("ratio_now")
 _SHIFTING, _SHIFT = axis_word("shift_active"), axis_word("shift_counts")
 
 
@@ -62,6 +63,14 @@ class FollowingReadings(FeedbackInputs):
     def shift_counts(self, axis_index: int) -> int:
         """Net shift (TPSHF), whole counts, halves upwards."""
         return math.floor(self._floats[axis_index][_SHIFT] + 0.5)
+
+    def net_shift(self, axis_index: int) -> float:
+        """Net shift, counts and what the profile of a shift under way makes of them."""
+        return self._floats[axis_index][_SHIFT]
+
+    def present_ratio(self, axis_index: int) -> float:
+        """Ratio at the last system update, slave counts per master count; 0 for an axis that does not follow."""
+        return self._floats[axis_index][_RATIO]
 
     def following_status(self, axis_index: int) -> int:
         """The FS word as far as the servo knows it, bit n of the manual = 1 << (n - 1); bits 6, 9, 13 are not its own.

@@ -23,6 +23,7 @@ GROUPS = {
     "c-loop": "c_loop",
     "scope": "scope",
     "plants": "plants",
+    "following": "following",
     "controller": "controller",
     "interpreter": "interpreter",
     "round-trip": "round_trip",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
+from typing import Any
 
 from emulator.engine import AxisHardware, Engine, MasterSource, RatioSegment, ServoRates, rates_for
 
@@ -17,9 +18,16 @@ class Gearing:
     """An engine whose axis 1, drive on, has the encoder of axis 2 as its master; that axis's drive is off."""
 
     def __init__(
-        self, *, rates: ServoRates | None = None, prediction: bool = True, corner_hz: float | None = None, sign: int = 1
+        self,
+        *,
+        rates: ServoRates | None = None,
+        prediction: bool = True,
+        corner_hz: float | None = None,
+        sign: int = 1,
+        master: AxisHardware | None = None,
+        **options: Any,
     ) -> None:
-        self.engine = Engine([AxisHardware()] * 2, rates=rates or rates_for(2, 4))
+        self.engine = Engine([AxisHardware(), master or AxisHardware()], rates=rates or rates_for(2, 4), **options)
         self.engine.set_wires(ALL_CLOSED)
         self.engine.set_position_error_limit(SLAVE, 0)
         self.engine.run(self.engine.next_system_update_ns)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+import statistics
 
 import pytest
 
-from emulator.engine import RATES, ServoRates
+from emulator.engine import RATES, AxisHardware, EncoderMotion, EncoderTraits, MasterMeasurement, ServoRates
 from tests.engine.following_rig import Gearing
 
 RATE_ROWS = [pytest.param(rates, id=f"INDAX{indax} SSFR{ssfr}") for (indax, ssfr), rates in RATES.items()]
@@ -109,3 +110,66 @@ def test_between_system_updates_the_slave_goes_in_a_straight_line() -> None:
         seen.append((gearing.slave, gearing.engine.commanded_velocity(0)))
     assert [position for position, _ in seen] == [420, 440, 460, 480, 480, 480, 480, 480]
     assert [velocity for _, velocity in seen] == [40_000.0] * 4 + [0.0] * 4
+
+
+@pytest.mark.parametrize("acceleration", [100, -60])
+def test_prediction_from_one_sample_errs_by_three_a_ts_squared(acceleration: int) -> None:
+    """m(k+2) - (3 m(k) - 2 m(k-1)) of m = a k^2 / 2."""
+    gearing = Gearing(measurement=MasterMeasurement(one_sample_predictor=True))
+    gearing.at_ratio(1)
+    gearing.turn_to(acceleration * k * k // 2 for k in range(1, 40))
+    assert gearing.master - gearing.slave == 3 * acceleration
+
+
+@pytest.mark.parametrize("corner_hz", [50.0, 20.0])
+@pytest.mark.parametrize("order", [1, 2])
+def test_a_filter_of_either_order_passes_its_corner_at_minus_3_db(corner_hz: float, order: int) -> None:
+    """A fast system update, so that the discrete filter is near the continuous one."""
+    gearing = Gearing(rates=system_period(200), corner_hz=corner_hz, measurement=MasterMeasurement(filter_order=order))
+    gearing.at_ratio(1)
+    periods = 5
+    updates = round(periods / corner_hz / gearing.period_s)
+    seen = []
+    for k in range(1, updates + 1):
+        gearing.turn_to([round(100_000 * math.sin(2 * math.pi * corner_hz * k * gearing.period_s))])
+        seen.append(gearing.slave)
+    assert max(seen[updates // 2 :]) == pytest.approx(100_000 / math.sqrt(2), rel=0.03)
+
+
+def noisy_gearing(*, prediction: bool, corner_hz: float | None = None) -> Gearing:
+    encoder = EncoderTraits(noise_counts_rms=50.0, noise_seed=7)
+    hardware = AxisHardware(encoder=encoder, motion=EncoderMotion())
+    gearing = Gearing(prediction=prediction, corner_hz=corner_hz, master=hardware)
+    gearing.at_ratio(1)
+    return gearing
+
+
+@pytest.mark.parametrize(
+    ("prediction", "corner_hz", "gain"),
+    [(False, None, 1.0), (True, None, math.sqrt(5)), (False, 20.0, None), (False, 80.0, None)],
+)
+def test_prediction_makes_a_noisy_master_rougher_and_a_filter_smoother(
+    prediction: bool, corner_hz: float | None, gain: float | None
+) -> None:
+    """White noise: 2 m(k) - m(k-2) has five times the variance, a first-order low-pass (1 - d) / (1 + d) of it."""
+    gearing = noisy_gearing(prediction=prediction, corner_hz=corner_hz)
+    seen = []
+    for _ in range(3000):
+        gearing.pass_updates(1)
+        seen.append(gearing.slave)
+    if corner_hz is not None:
+        decay = math.exp(-2 * math.pi * corner_hz * gearing.period_s)
+        gain = math.sqrt((1 - decay) / (1 + decay))
+    assert gain is not None
+    assert statistics.pstdev(seen) == pytest.approx(50.0 * gain, rel=0.08)
+
+
+@pytest.mark.parametrize("rates", RATE_ROWS)
+def test_lags_behind_a_conveyor_of_the_machine_file(rates: ServoRates) -> None:
+    """The running system: an encoder that turns in time, sampled, followed by the commanded position."""
+    hardware = AxisHardware(motion=EncoderMotion(VELOCITY_COUNTS_S))
+    for prediction, lag in ((False, 2 * rates.system_ns * 1e-9 * VELOCITY_COUNTS_S), (True, 0.0)):
+        gearing = Gearing(rates=rates, prediction=prediction, master=hardware)
+        gearing.at_ratio(1)
+        gearing.pass_updates(40)
+        assert gearing.engine.master_counts(0) - gearing.slave == pytest.approx(lag, abs=2 if prediction else 1)

@@ -162,7 +162,7 @@ PROBLEMS = [
     ("[defaults]\nECHO = ''", "defaults.ECHO", "''", "a value is needed"),
     ("[defaults]\nECHO = {a = 1}", "defaults.ECHO", "{'a': 1}", "a number, a text, or a list"),
     # keys of commands that are not part of this machine yet
-    ("[following]\npredictor = 1", "following", "a table", "keys identity"),
+    ("[following]\npredictor = 1", "following.predictor", "1", "'one_sample' or 'two_samples'"),
     ("[rmc]\nport = 502", "rmc", "a table", "keys identity"),
 ]
 
