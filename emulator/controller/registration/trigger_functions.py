@@ -81,13 +81,15 @@ class TriggerFunctions:
             self._controller.held_starts.fulfil(axis_index, _command(trigger_index))
             if (trigger_index, axis_index) in self._new_cycle:
                 self._new_cycle.remove((trigger_index, axis_index))
-                new_cycle(self._controller, axis_index)
+                new_cycle(self._controller, trigger_index, axis_index)
 
 
-def new_cycle(controller: Controller, axis_index: int) -> None:
-    """As FMCNEW: the master position is FMCP when the trigger is told; nothing without a master."""
+def new_cycle(controller: Controller, trigger_index: int, axis_index: int) -> None:
+    """As FMCNEW, at the edge: the master position was FMCP where the master was then; nothing without a master."""
     if has_master(controller, axis_index):
-        controller.engine.restart_master_cycle(axis_index, master_counts(controller.settings, "FMCP", axis_index))
+        at = controller.engine.master_at_capture(trigger_index, axis_index)
+        position = master_counts(controller.settings, "FMCP", axis_index)
+        controller.engine.restart_master_cycle(axis_index, position, at=at)
 
 
 def _command(trigger_index: int) -> str:
