@@ -426,7 +426,8 @@ Volts = Annotated[float, msgspec.Meta(ge=0.0, le=2.5)]
 class Trigger(Table, frozen=True):
     """What a trigger input is connected to: a contact alone, or a sensor that sees marks on an axis.
 
-    Positions are revolutions of the load from where it stands at start; over a mark the contact changes over.
+    Positions are revolutions of the load from where it stands at start, or of what else turns the encoder of the axis;
+    over a mark the contact changes over.
     """
 
     marks_on: Annotated[

@@ -30,8 +30,8 @@ from emulator.controller.wires import (
 COMMAND_MODULES = (
     *(communications, faults, line, reports, timing),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
-    *(advance, assignment, cycles, sampling, shifts),
     *(captures, gowhen, registering, trigger_functions),
+    *(advance, assignment, cycles, sampling, shifts),
     *(debugging, flow, listings, on_conditions, program_select, program_store),
     *(data_programs, reading, timers, variable_store, writing),
     *(analog, input_effects, input_functions, inputs, output_functions, output_on_position, outputs),

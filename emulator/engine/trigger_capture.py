@@ -45,7 +45,8 @@ class MarkSensor:
     """A sensor at a trigger input that sees marks on a moving axis: registration marks on a web, a slot in a disk.
 
     Marks begin at `at_rev` and, unless `every_rev` is 0, again and again in both directions at that spacing; each is
-    `width_rev` wide. Positions are true positions of the load. Over a mark the contact is closed.
+    `width_rev` wide. Positions are true positions of the load, or of what else turns the axis' encoder. Over a mark
+    the contact is closed.
     """
 
     axis_index: int
@@ -77,13 +78,21 @@ class MarkSensor:
 # Where things were at an instant between two samples.
 
 
+@kernel
+def place_of_marks(axis: Record) -> float:
+    """Where what carries an axis's marks is, rev: its load, or what else turns its encoder."""
+    if axis["encoder_driven"] != 0:
+        return float(axis["driven_counts"] / axis["counts_per_rev"])
+    return place_of_load(axis)
+
+
 @seldom
 def note_before(unit: Record, axes: Records) -> None:
     """Keep how things stood at the last sample, before this one moves them."""
     for axis_index in range(unit["axis_count"]):
         axis = axes[axis_index]
         axis["before_rev"] = axis["true_position"]
-        axis["before_load_rev"] = place_of_load(axis)
+        axis["before_load_rev"] = place_of_marks(axis)
         axis["before_rev_s"] = axis["true_velocity"]
         axis["before_reading"] = axis["encoder_reading"]
         axis["before_encoder_counts"] = axis["encoder_counts"]
@@ -94,13 +103,13 @@ def note_before(unit: Record, axes: Records) -> None:
 
 @kernel
 def place_between(axis: Record, of_load: int, fraction: float, period_s: float) -> float:
-    """Position of the shaft or the load at a fraction of the sample just past, rev.
+    """Position of the shaft or the load, or of what else turns the encoder, at a fraction of the sample just past, rev.
 
-    A load that is apart is taken to move evenly within a sample.
+    A load that is apart, and what else turns an encoder, are taken to move evenly within a sample.
     """
-    if of_load != 0 and axis["load_apart"] != 0:
+    if axis["encoder_driven"] != 0 or (of_load != 0 and axis["load_apart"] != 0):
         before = axis["before_load_rev"]
-        return float(before + fraction * (axis["load_position"] - before))
+        return float(before + fraction * (place_of_marks(axis) - before))
     before = axis["before_rev"]
     moved = axis["true_position"] - before
     early = axis["before_rev_s"] * period_s - moved
@@ -223,7 +232,7 @@ def capture_edge(unit: Record, axes: Records, trigger_index: int, now_ns: int) -
 @seldom
 def pass_marks(unit: Record, trigger: Record, axis: Record, now_ns: int) -> None:
     """Let the marks of an axis pass a trigger's sensor: the first active edge of the sample, and the contact."""
-    before, after = axis["before_load_rev"], place_of_load(axis)
+    before, after = axis["before_load_rev"], place_of_marks(axis)
     every, width = trigger["mark_every_rev"], trigger["mark_width_rev"]
     forwards = after > before
     edge = trigger["mark_at_rev"]

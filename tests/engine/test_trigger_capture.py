@@ -21,6 +21,7 @@ from emulator.engine import (
     plan_continuous,
     rates_for,
 )
+from emulator.engine.encoder_motion import EncoderMotion
 from emulator.engine.layout import PLANT
 from emulator.engine.machine_code import MODE_VARIABLE
 from emulator.engine.plants import plant_fields, step_plant
@@ -357,3 +358,18 @@ def test_interpreted_and_compiled_agree_to_the_last_bit(monkeypatch: pytest.Monk
     _, compiled = played()
     monkeypatch.setenv(MODE_VARIABLE, "interpreted")
     assert played() == ("interpreted", compiled)
+
+
+@settings(max_examples=25, deadline=None)
+@given(speed=st.floats(4e3, 1e6).flatmap(lambda each: st.sampled_from([each, -each])), after_ns=st.integers(1, 10**8))
+def test_an_encoder_that_something_else_turns(speed: float, after_ns: int) -> None:
+    """A conveyor at constant velocity: the count at the edge, and marks that lie on the conveyor."""
+    engine = engine_with()
+    engine.move_encoder(0, EncoderMotion(velocity_counts_s=speed))
+    engine.fit_mark_sensor(1, MarkSensor(axis_index=0, at_rev=0.0625 if speed > 0 else -0.0725))
+    run_to(engine, after_ns)
+    press(engine)
+    run_to(engine, after_ns + 10**8)
+    assert abs(engine.captured_positions(0, 0).encoder - math.floor(speed * after_ns * 1e-9)) <= 1
+    edge = 250 if speed > 0 else -250
+    assert engine.captured_at_ns(1) == pytest.approx(edge / speed * 1e9, abs=5)

@@ -13,7 +13,6 @@ from emulator.controller.faults import CLEARED_BY_GO, clear_without_cause
 from emulator.controller.motion.following import moves
 from emulator.controller.motion.following.assignment import is_following
 from emulator.controller.motion.following.go_wait import motion_wait
-from emulator.controller.motion.following.master_condition import MasterPositionReached
 from emulator.controller.motion.limits import limit_in_the_way
 from emulator.controller.motion.targets import preset_target
 from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
@@ -51,33 +50,21 @@ CLEARED_BY_LEGAL_GO = (
 def go(controller: Controller, command: Command) -> Lines:
     """GO: start the loaded profile on the axes named, or on all whose drive is on."""
     axes = _axes_to_start(controller, command)
+    controller.held_starts.withdraw(axes)
     for axis_index in axes:
         check_move(controller, axis_index)
     controller.faults.clear(CLEARED_BY_GO)
     for axis_index in axes:
-        start_when_due(controller, axis_index)
+        begin_at = _begin_at(controller, axis_index) if is_following(controller, axis_index) else None
+        controller.held_starts.start((axis_index,), partial(start, controller, axis_index), begin_at=begin_at)
     if not controller.settings.flag("COMEXC") and axes:
         controller.interpreter.wait_for(motion_wait(controller, axes))
     return None
 
 
-def start_when_due(controller: Controller, axis_index: int) -> None:
-    """Start one axis now, or when what GOWHEN or TRGFN has it wait for comes.
-
-    A Following move that waits for its own master is handed to the servo at once, so that it begins exactly there.
-    """
-    condition = controller.held_starts.only_condition(axis_index)
-    begin: Callable[[], None] = partial(start, controller, axis_index)
-    if is_following(controller, axis_index) and isinstance(condition, MasterPositionReached):
-        start_at = condition.travel_ahead(controller, axis_index)
-        if start_at is not None:
-            start(controller, axis_index, start_at=start_at)
-            begin = _has_begun
-    controller.held_starts.start((axis_index,), begin)
-
-
-def _has_begun() -> None:
-    """The servo itself has begun the move."""
+def _begin_at(controller: Controller, axis_index: int) -> Callable[[int], None]:
+    """What starts a slave where its master comes to a position."""
+    return lambda master_travel: start(controller, axis_index, at_master=master_travel)
 
 
 def check_move(controller: Controller, axis_index: int) -> None:
@@ -158,35 +145,34 @@ def check_s_curve(controller: Controller, axis_index: int, family: str = "") -> 
         raise s_curve_deceleration(axis_index + 1)
 
 
-def start(controller: Controller, axis_index: int, *, start_at: int | None = None) -> None:
+def start(controller: Controller, axis_index: int, *, at_master: int | None = None) -> None:
     """Start one axis, moving or not: nothing moves into an active limit; a preset move that cannot be had from the
     present motion leaves that as it is, with AS bit 30 and ER bit 10 (assumed M).
 
-    ``start_at`` is the master travel at which a Following move is to begin.
+    ``at_master`` is a master position to come, at which a slave is to begin.
     """
     if is_following(controller, axis_index):
-        _start_following(controller, axis_index, start_at)
+        _start_following(controller, axis_index, at_master)
         return
     direction = _direction(controller, axis_index)
-    if not _way_is_free(controller, axis_index, direction):
-        return
-    try:
-        segments = _profile(controller, axis_index, direction)
-    except TargetOvershot:
-        controller.engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
-        controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
-        return
-    _clear_earlier_moves(controller, axis_index)
-    if segments:
+    segments: Segments = ()
+    if limit_in_the_way(controller, axis_index, direction) is None:
+        try:
+            segments = _profile(controller, axis_index, direction)
+        except TargetOvershot:
+            controller.engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
+            controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
+            return
+    if allow_motion(controller, axis_index, direction) and segments:
         controller.registration.watch(axis_index)
         controller.engine.start_profile(axis_index, segments)
 
 
-def _start_following(controller: Controller, axis_index: int, start_at: int | None) -> None:
+def _start_following(controller: Controller, axis_index: int, at_master: int | None) -> None:
     """A move that is no longer legal when what it waited for comes does not start (assumed)."""
     with suppress(CommandError):
         if allow_motion(controller, axis_index, moves.direction(controller, axis_index)):
-            moves.start_move(controller, axis_index, start_at=start_at)
+            moves.start_move(controller, axis_index, start_at=at_master)
 
 
 def _direction(controller: Controller, axis_index: int) -> int:
@@ -200,28 +186,22 @@ def _direction(controller: Controller, axis_index: int) -> int:
 
 
 def allow_motion(controller: Controller, axis_index: int, direction: int) -> bool:
-    """Whether no active limit lies in a direction; if so what earlier moves have left in AS and ER is cleared."""
-    free = _way_is_free(controller, axis_index, direction)
-    if free:
-        _clear_earlier_moves(controller, axis_index)
-    return free
+    """Whether no active limit lies in a direction: then what earlier moves have left in AS and ER is cleared.
 
-
-def _way_is_free(controller: Controller, axis_index: int, direction: int) -> bool:
-    """Whether no active limit lies in a direction; one that does is latched, AS 15 to 18 and ER 2 or 3."""
+    Otherwise the limit is latched, AS 15 to 18 and ER 2 or 3.
+    """
+    engine = controller.engine
     hit = limit_in_the_way(controller, axis_index, direction)
     if hit is not None:
-        controller.engine.latch_status(axis_index, hit.axis_bit.mask)
+        engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
-    return hit is None
-
-
-def _clear_earlier_moves(controller: Controller, axis_index: int) -> None:
-    in_zone = controller.engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
-    controller.engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
+        return False
+    in_zone = engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
+    engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
     clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
     if in_zone:
         clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
+    return True
 
 
 def _profile(controller: Controller, axis_index: int, direction: int) -> Segments:

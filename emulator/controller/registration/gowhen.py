@@ -15,9 +15,8 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.motion.following.cycles import cycle_start
-from emulator.controller.motion.following.master_condition import MasterPositionReached
 from emulator.controller.readings import READINGS
+from emulator.controller.registration.master_reached import COMPARE, MasterReached, master_reached
 from emulator.engine import Signal
 from emulator.engine.engine import FIRST_LASTING_WATCH
 from protocol.command import Command
@@ -35,14 +34,6 @@ NS_PER_MS = 1_000_000
 POSITIONS = frozenset({"FB", "PC", "PE", "PANI", "PMAS", "PSLV", "PSHF"})
 """Readings of an axis that may stand on the left."""
 
-RELATIONS = {
-    "=": lambda value, limit: value == limit,
-    "<": lambda value, limit: value < limit,
-    ">": lambda value, limit: value > limit,
-    "<=": lambda value, limit: value <= limit,
-    ">=": lambda value, limit: value >= limit,
-}
-
 _TIME = re.compile(r"\d?T(=|>=|<=|>|<)(.+)", re.ASCII)
 
 
@@ -57,7 +48,7 @@ class PositionReached:
 
     def holds(self, controller: Controller) -> bool:
         """``sign`` may be = only until the start waits, then it is the side from which the position is approached."""
-        return RELATIONS[self.sign](self._present(controller), self.counts)
+        return COMPARE[self.sign](self._present(controller), self.counts)
 
     def await_it(self, controller: Controller, axis_index: int) -> None:
         """The servo watches it, in the slot of the axis that waits."""
@@ -103,7 +94,7 @@ class InputsMatch:
         """Inputs tell when they change."""
 
 
-Condition = PositionReached | MasterPositionReached | TimePassed | InputsMatch
+Condition = PositionReached | MasterReached | TimePassed | InputsMatch
 
 
 @handles(NAME)
@@ -172,8 +163,10 @@ def read_condition(controller: Controller, text: str, axis_index: int) -> Condit
     return _position(controller, relation, relation.left, axis_index)
 
 
-def _position(controller: Controller, relation: Relation, operand: Operand, axis_index: int) -> Condition:
-    if operand.name not in POSITIONS or relation.sign not in RELATIONS:
+def _position(
+    controller: Controller, relation: Relation, operand: Operand, axis_index: int
+) -> PositionReached | MasterReached:
+    if operand.name not in POSITIONS or relation.sign not in COMPARE:
         raise invalid_data_field(axis_index + 1)
     if operand.name not in READINGS or operand.name not in Signal.__members__:
         raise CommandError(COMMAND_NOT_IMPLEMENTED)
@@ -184,7 +177,7 @@ def _position(controller: Controller, relation: Relation, operand: Operand, axis
     scale = READINGS[operand.name].scale
     factor = controller.settings.reading_factor(scale, watched) if scale else 1
     if operand.name == "PMAS":
-        return MasterPositionReached(watched, relation.sign, value * factor, cycle_start(controller, watched))
+        return master_reached(controller, watched, relation.sign, value * factor)
     return PositionReached(operand.name, watched, relation.sign, value * factor)
 
 

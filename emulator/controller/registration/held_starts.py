@@ -14,12 +14,14 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
+from emulator.controller.registration.master_reached import MasterReached
 from protocol.status import ErrorStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
 
 Begin = Callable[[], None]
+BeginAt = Callable[[int], None]
 
 
 class StartCondition(Protocol):
@@ -49,6 +51,8 @@ class HeldStart:
     axes: tuple[int, ...]
     begin: Begin
     waiting_for: list[Awaited]
+    in_servo: bool = False
+    """The servo has the motion already and holds it back to the very count of master travel."""
 
 
 class HeldStarts:
@@ -83,20 +87,18 @@ class HeldStarts:
         waiting = any((axis_index, command) == each[:2] for held in self._held for each in held.waiting_for)
         return waiting or command in self._conditions[axis_index]
 
-    def only_condition(self, axis_index: int) -> StartCondition | None:
-        """What the next start of an axis waits for, if it is one thing."""
-        conditions = list(self._conditions[axis_index].values())
-        return conditions[0] if len(conditions) == 1 else None
-
     def remove_condition(self, axis_index: int, command: str) -> None:
         """The next start of an axis does not wait for what this command set."""
         self._conditions[axis_index].pop(command, None)
 
-    def start(self, axes: Sequence[int], begin: Begin) -> None:
+    def start(self, axes: Sequence[int], begin: Begin, *, begin_at: BeginAt | None = None) -> None:
         """Begin the motion of axes when everything they wait for has come true: at once if that is nothing.
 
         A start that waited on one of the axes is given up for this one.  A condition that is true already sets ER bit
         14 and holds nothing.
+
+        ``begin_at``, for a slave that can begin at a master position (its travel in counts), is called at once in place
+        of ``begin`` later, if that is all the axis waits for.
         """
         self._give_up(axes)
         awaited = [each for axis_index in axes for each in self._take(axis_index)]
@@ -110,6 +112,25 @@ class HeldStarts:
         self._show(axes)
         for each in held.waiting_for:
             each.condition.await_it(self._controller, each.axis_index)
+        if begin_at is not None and len(held.waiting_for) == 1:
+            self._hand_over(held, begin_at)
+
+    def _hand_over(self, held: HeldStart, begin_at: BeginAt) -> None:
+        """Let the servo begin the motion where the slave's own master comes to the position waited for."""
+        axis_index, _, condition = held.waiting_for[0]
+        if not isinstance(condition, MasterReached) or condition.axis_index != axis_index:
+            return
+        master_travel = condition.begins_at(self._controller)
+        if master_travel is not None:
+            held.in_servo = True
+            begin_at(master_travel)
+
+    def withdraw(self, axes: Iterable[int]) -> None:
+        """A new start is coming: motion that the servo holds back for axes at rest is taken from it again."""
+        for axis_index in axes:
+            in_servo = any(held.in_servo and axis_index in held.axes for held in self._held)
+            if in_servo and self._controller.engine.following_ratio(axis_index) == 0:
+                self._controller.engine.cancel_profile(axis_index)
 
     def _take(self, axis_index: int) -> list[Awaited]:
         """What the next start of an axis waits for; the one after it waits for nothing."""
@@ -132,7 +153,7 @@ class HeldStarts:
             return
         self._held.remove(held)
         self._show(held.axes)
-        if all(self._controller.engine.is_enabled(axis_index) for axis_index in held.axes):
+        if not held.in_servo and all(self._controller.engine.is_enabled(axis_index) for axis_index in held.axes):
             held.begin()
 
     def forget(self, axes: Iterable[int]) -> None:

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.motion.following.cycles import restart_at_trigger
+from emulator.controller.motion.following.assignment import has_master
+from emulator.controller.motion.following.ratio import master_counts
 from emulator.controller.registration.captures import LETTERS
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, CommandError
@@ -57,9 +58,9 @@ class TriggerFunctions:
         """A trigger will begin a new master cycle of an axis."""
         return (trigger_index, axis_index) in self._new_cycle
 
-    def new_cycle_pending(self, axis_index: int) -> bool:
-        """Some trigger will begin a new master cycle of an axis (FS bit 13)."""
-        return any(axis_index == each for _, each in self._new_cycle)
+    def awaits_cycle(self, axis_index: int) -> bool:
+        """Some trigger will (FS bit 13)."""
+        return any(axis_index == waiting for _, waiting in self._new_cycle)
 
     def arm(self, trigger_index: int, axis_index: int, digits: str) -> None:
         """Arm (1), disarm (0) or leave (X) each function."""
@@ -80,7 +81,13 @@ class TriggerFunctions:
             self._controller.held_starts.fulfil(axis_index, _command(trigger_index))
             if (trigger_index, axis_index) in self._new_cycle:
                 self._new_cycle.remove((trigger_index, axis_index))
-                restart_at_trigger(self._controller, axis_index, trigger_index)
+                new_cycle(self._controller, axis_index)
+
+
+def new_cycle(controller: Controller, axis_index: int) -> None:
+    """As FMCNEW: the master position is FMCP when the trigger is told; nothing without a master."""
+    if has_master(controller, axis_index):
+        controller.engine.restart_master_cycle(axis_index, master_counts(controller.settings, "FMCP", axis_index))
 
 
 def _command(trigger_index: int) -> str:
