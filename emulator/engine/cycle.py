@@ -13,7 +13,6 @@ import math
 from .control_law import closed_loop, dither, limited, open_loop
 from .converter import convert_output
 from .encoder import OPEN_LOOP, take_feedback
-from .encoder_motion import drive_encoder
 from .events import (
     EVENT_HARD_LIMIT,
     EVENT_MOVE_ENDED,
@@ -172,9 +171,7 @@ def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, traj
             follow_profile(axis, segments, now_ns)
         elif follow_master(unit, axis, segments, now_ns):
             end_move(axis, now_ns)
-    if axis["encoder_driven"] != 0:
-        drive_encoder(axis, now_ns)
-    take_feedback(axis)
+    take_feedback(axis, now_ns)
     if axis["switches_fitted"] != 0:
         operate_switches(unit, axis)
     if axis["capture_mode"] != CAPTURE_NONE:

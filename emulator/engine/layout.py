@@ -110,8 +110,6 @@ _FOLLOWING_FIELDS: Fields = (
     ("shift_acceleration", FLOAT, "acceleration of the shift, counts/s2"),
     # status
     ("following_status", INT, "FS word as of the last return of the kernel, bit n = 1 << (n - 1)"),
-    ("following_watch_mask", INT, "FS bits being watched"),
-    ("watched_following", INT, "the watched bits when armed or last reported"),
 )
 
 
@@ -250,6 +248,8 @@ AXIS_FIELDS: Fields = (
     ("status", INT, "AS word as of the last return of the kernel, bit n = 1 << (n - 1)"),
     ("watch_mask", INT, "AS bits being watched"),
     ("watched_status", INT, "the watched bits when armed or last reported"),
+    ("following_watch_mask", INT, "FS bits being watched"),
+    ("watched_following", INT, "the watched bits when armed or last reported"),
     ("pending_events", INT, "events since the last system update"),
     ("events", INT, "events reported and not yet read"),
     # plant: state
