@@ -43,9 +43,9 @@ UNIT_FIELDS: Fields = (
     ("outputs", INT, "programmable outputs that are on, bit 0 = output 1, as the controller last set them"),
     ("armed_watches", INT, "value watches still armed"),
     ("fired_watches", INT, "value watches that have fired, bit = slot, since Python last asked"),
+    ("trigger_work", INT, "why samples are looked between, bits of `trigger_capture`; 0 = no reason"),
     ("slaves", INT, "axes that have a master"),
     ("ratio_capacity", INT, "rows of the table of ratios kept for each axis"),
-    ("trigger_work", INT, "why samples are looked between, bits of `trigger_capture`; 0 = no reason"),
 )
 
 _FOLLOWING_FIELDS: Fields = (

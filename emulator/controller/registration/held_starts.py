@@ -87,11 +87,6 @@ class HeldStarts:
         waiting = any((axis_index, command) == each[:2] for held in self._held for each in held.waiting_for)
         return waiting or command in self._conditions[axis_index]
 
-    def only_condition(self, axis_index: int) -> StartCondition | None:
-        """What the next start of an axis waits for, if it is one thing."""
-        conditions = list(self._conditions[axis_index].values())
-        return conditions[0] if len(conditions) == 1 else None
-
     def remove_condition(self, axis_index: int, command: str) -> None:
         """The next start of an axis does not wait for what this command set."""
         self._conditions[axis_index].pop(command, None)

@@ -58,9 +58,9 @@ class TriggerFunctions:
         """A trigger will begin a new master cycle of an axis."""
         return (trigger_index, axis_index) in self._new_cycle
 
-    def new_cycle_pending(self, axis_index: int) -> bool:
-        """Some trigger will begin a new master cycle of an axis (FS bit 13)."""
-        return any(axis_index == each for _, each in self._new_cycle)
+    def awaits_cycle(self, axis_index: int) -> bool:
+        """Some trigger will (FS bit 13)."""
+        return any(axis_index == waiting for _, waiting in self._new_cycle)
 
     def arm(self, trigger_index: int, axis_index: int, digits: str) -> None:
         """Arm (1), disarm (0) or leave (X) each function."""

@@ -47,17 +47,18 @@ def restart_cycle(controller: Controller, command: Command) -> Lines:
 
 
 def restart_at_trigger(controller: Controller, axis_index: int, trigger_index: int) -> None:
-    """TRGFN: the master position was FMCP at the instant of a trigger edge; nothing without a master (assumed)."""
+    """TRGFN: the master position was FMCP at the instant of a trigger's edge; nothing without a master (assumed)."""
     master = master_of(controller, axis_index)
     if master is None:
         return
     engine = controller.engine
     captured = engine.captured_positions(trigger_index, master.axis_index)
-    passed = {
-        MasterKind.ENCODER: lambda: engine.encoder_position(master.axis_index) - captured.encoder,
-        MasterKind.ANI: lambda: engine.ani_position(master.axis_index) - captured.ani,
-        MasterKind.COMMANDED: lambda: engine.commanded_position(master.axis_index) - captured.commanded,
-    }[master.kind]()
+    if master.kind is MasterKind.ENCODER:
+        passed = engine.encoder_position(master.axis_index) - captured.encoder
+    elif master.kind is MasterKind.ANI:
+        passed = engine.ani_position(master.axis_index) - captured.ani
+    else:
+        passed = engine.commanded_position(master.axis_index) - captured.commanded
     at = engine.master_counts(axis_index) - master.sign * passed
     engine.restart_master_cycle(axis_index, master_counts(controller.settings, "FMCP", axis_index), at=at)
 

@@ -72,7 +72,7 @@ def check_go(controller: Controller, axis_index: int) -> None:
     """
     if in_ratio_move(controller, axis_index):
         _check_under_way(controller, axis_index)
-    elif controller.engine.is_moving(axis_index) and not controller.engine.is_held(axis_index):
+    elif controller.engine.is_moving(axis_index):
         shifting = controller.engine.following_status(axis_index) & FollowingStatus.SHIFTING.mask
         raise CommandError(NOT_VALID_DURING_FOLLOWING_MOTION if shifting else MOTION_IN_PROGRESS)
     plan_move(controller, axis_index)
@@ -125,14 +125,9 @@ def direction(controller: Controller, axis_index: int) -> int:
 
 
 def start_move(controller: Controller, axis_index: int, *, start_at: int | None = None) -> None:
-    """Start the ratio move that ``check_go`` has allowed; ``start_at`` is a master travel still to come (GOWHEN).
-
-    A move that waits for such a place has not begun, and leaves nothing behind.
-    """
+    """Start the ratio move that ``check_go`` has allowed; ``start_at`` is a master travel still to come (GOWHEN)."""
     segments = plan_move(controller, axis_index)
     preset = not controller.settings.flag("MC", axis_index)
-    if controller.engine.is_held(axis_index) and not controller.engine.following_ratio(axis_index):
-        controller.engine.cancel_profile(axis_index)
     if segments or in_ratio_move(controller, axis_index):
         controller.ratio_moves.note(axis_index, RatioMove.PRESET if preset else RatioMove.CONTINUOUS)
         controller.engine.start_following(axis_index, segments, preset=preset, start_at=start_at)

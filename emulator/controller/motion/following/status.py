@@ -24,7 +24,6 @@ def following_status(controller: Controller, axis_index: int) -> str:
         return word_bits(0, WORD)
     ready = controller.engine.is_enabled(axis_index)
     conditions = {
-        FollowingStatus.MASTER_CYCLE_TRIGGER_PENDING: controller.trigger_functions.new_cycle_pending(axis_index),
         FollowingStatus.FOLEN_ACTIVE: is_following(controller, axis_index),
         FollowingStatus.OK_TO_SHIFT: ready and not shift_refusal(controller, axis_index),
         FollowingStatus.GEARED_ADVANCE_UNDER_WAY: controller.ratio_moves.advancing(axis_index),
