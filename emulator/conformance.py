@@ -41,7 +41,7 @@ ABSENT_GROUPS: Final[Mapping[str, str]] = {
 
 ABSENT_ROWS: Final[Mapping[str, str]] = {
     "TRANS": "translation mode needs the computer bus of other products; only its default is accepted",
-    **dict.fromkeys(("GOL", "GOWHEN", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
+    **dict.fromkeys(("GOWHEN", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
     **dict.fromkeys(("PMAS", "PSLV", "PSHF", "NMCY", "VMAS", "FS"), _MOTION),
     **dict.fromkeys(("TPCA", "TPCC", "TPCE", "TPMAS", "TPSLV", "TPSHF", "TNMCY", "TVMAS", "TFS", "TFSF"), _MOTION),
 }
@@ -50,7 +50,7 @@ ABSENT_ROWS: Final[Mapping[str, str]] = {
 _LINE: Final = "acts with a second port"
 
 STORED_ROWS: Final[Mapping[str, str]] = {
-    **dict.fromkeys(("VF", "PA", "PAA", "PAD", "PADA", "PV", "PSCLA", "PSCLV", "PSCLD", "SCLMAS"), _MOTION),
+    **dict.fromkeys(("VF", "PSCLD", "SCLMAS"), _MOTION),
     **dict.fromkeys(("LOCK", "DRPCHK"), _LINE),
     **dict.fromkeys(("COMEXK", "FOLK"), "stores only: its existence is not confirmed"),
     "TIMINT": "its alarm goes to the computer bus of other products",

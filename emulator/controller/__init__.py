@@ -1,12 +1,13 @@
 """One OEM6250: interpreter, settings, faults and reports here, the rest in folders named for what they do.
 
 `programs` stores and runs programs, `variables` holds what they reckon with, `wires` is the terminals, `motion` moves
-the axes.  A controller knows nothing of ports.
+the axes, `paths` moves them together.  A controller knows nothing of ports.
 """
 
 from emulator.controller import communications, faults, line, reports, timing
 from emulator.controller.controller import Controller
 from emulator.controller.motion import gain_sets, go, homing, jogging, joystick, limits, servo, stopping
+from emulator.controller.paths import linear
 from emulator.controller.output import Output
 from emulator.controller.programs import debugging, flow, listings, on_conditions, program_select
 from emulator.controller.programs import store as program_store
@@ -28,6 +29,7 @@ from emulator.controller.wires import (
 COMMAND_MODULES = (
     *(communications, faults, line, reports, timing),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
+    linear,
     *(debugging, flow, listings, on_conditions, program_select, program_store),
     *(data_programs, reading, timers, variable_store, writing),
     *(analog, input_effects, input_functions, inputs, output_functions, output_on_position, outputs),

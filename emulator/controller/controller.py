@@ -30,6 +30,7 @@ from emulator.controller.motion.joystick import Joystick
 from emulator.controller.motion.pausing import Pausing
 from emulator.controller.motion.stopping import end_of_travel, stop_axes
 from emulator.controller.output import Output
+from emulator.controller.paths.motion import Paths
 from emulator.controller.programs.debugging import Debugging
 from emulator.controller.programs.on_conditions import OnConditions
 from emulator.controller.programs.program_select import ProgramSelect, security_locked
@@ -132,6 +133,7 @@ class Controller:
         self.homing = Homing(self)
         self.jogging = Jogging(self)
         self.joystick = Joystick(self)
+        self.paths = Paths(self)
         self._enable_lost = False
         self._lines: dict[int, LineAssembler] = {}
         self._transmitter = self.line.transmitter
@@ -318,6 +320,7 @@ class Controller:
         self.homing.abort(axis_index)
         self.joystick.leave(axis_index)
         self.engine.disable(axis_index)
+        self.paths.lose_axis(axis_index)
         self.note_drive(axis_index, on=False)
 
     def note_drive(self, axis_index: int, *, on: bool) -> None:
@@ -397,6 +400,7 @@ class Controller:
         if events & Event.SOFT_LIMIT:
             end_of_travel(self, axis_index, "LSAD", ErrorStatus.SOFT_LIMIT_HIT)
         if events & Event.POSITION_ERROR:
+            self.paths.lose_axis(axis_index)
             self.note_drive(axis_index, on=False)
             self.faults.latch(ErrorStatus.POSITION_ERROR_EXCEEDED)
         if events & Event.SETTLE_TIMEOUT:
@@ -457,6 +461,7 @@ class Controller:
         self.homing.reset()
         self.jogging.reset()
         self.joystick.reset()
+        self.paths.reset()
         self._reset_inputs_and_outputs()
         self.engine.power_up()
         dispatch.apply_all(self)

@@ -227,7 +227,7 @@ class Engine(FeedbackInputs):
         if not self._ints[axis_index][ENABLED]:
             raise DriveShutDown(f"the drive of axis {axis_index + 1} is off")
         offset = self._ints[axis_index][OFFSET]
-        raw = tuple(segment._replace(position=segment.position + offset) for segment in segments)
+        raw = tuple(segment.moved(offset) for segment in segments)
         if self._memory.reserve_segments(len(raw)):
             self._bind()
         self._memory.store_segments(axis_index, raw)

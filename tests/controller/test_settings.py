@@ -390,7 +390,7 @@ class TestOneAxis:
 
 
 LATER = [
-    *("GOL11", "FSHFC1", "FSHFD100", "FGADV1", "FMCNEW1", "GOBUF1", "PCOMP P", "PRUN P"),
+    *("FSHFC1", "FSHFD100", "FGADV1", "FMCNEW1", "GOBUF1", "PCOMP P", "PRUN P"),
     *("PLIN1,1", "PARCM5,5,5", "PARCP1,1,1,1", "TPCA"),
 ]
 """Other issues' work: Following, compiled motion, registration, contouring, linear interpolation."""
