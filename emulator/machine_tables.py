@@ -217,7 +217,7 @@ class Memory(Table, frozen=True):
     vars: Annotated[int, known("string variables", "documented", source="UG 74", ge=1)] = 25
     string_characters: Annotated[int, known("longest string, characters", "documented", source="UG 74", ge=1)] = 20
     labels: Annotated[int, known("labels", "assumed", "M", ge=1)] = 250
-    compiled: Annotated[int, known("compiled programs", "assumed", "M", ge=1, acts=False)] = 100
+    compiled: Annotated[int, known("compiled programs", "assumed", "M", ge=1)] = 100
     nest_levels: Annotated[int, known("nesting of IF, loops and GOSUB", "assumed", "H", ge=1)] = 16
 
 

@@ -55,11 +55,27 @@ PATH_RADIUS_TOO_SMALL = "PATH RADIUS TOO SMALL"
 PATH_RADIUS_ZERO = "PATH RADIUS ZERO"
 PATH_VELOCITY_ZERO = "PATH VELOCITY ZERO"
 DEFINED_WITH_ANOTHER_TW = "WARNING: DEFINED WITH ANOTHER TW"
+NO_PATH_SEGMENTS_DEFINED = "NO PATH SEGMENTS DEFINED"
+NOT_DEFINING_A_PATH = "NOT DEFINING A PATH"
+NOT_ALLOWED_IN_PATH = "NOT ALLOWED IN PATH"
+PATH_NOT_COMPILED = "PATH NOT COMPILED"
+PATH_ALREADY_MOVING = "PATH ALREADY MOVING"
+AXES_NOT_READY = "AXES NOT READY"
 
 
 def invalid_data_field(number: int) -> CommandError:
     """A field out of range; ``number`` counts comma fields from 1 (the axis number with an axis prefix)."""
     return CommandError(f"{INVALID_DATA}-FIELD {number}")
+
+
+def invalid_conditions(axis: int) -> CommandError:
+    """What one axis is to do does not fit its state, or what it did before."""
+    return CommandError(f"{INVALID_CONDITIONS}-AXIS {axis}")
+
+
+def ends_moving(axis: int) -> CommandError:
+    """PCOMP of a profile whose last preset segment does not end at rest."""
+    return CommandError(f"ERROR:  MOTION ENDS IN NON-ZERO VELOCITY-AXIS {axis}")
 
 
 def s_curve_acceleration(axis: int) -> CommandError:

@@ -17,6 +17,7 @@ from emulator.controller.alarms import Alarms
 from emulator.controller.build import build_engine, build_settings, rates_in_force
 from emulator.controller.changes import KEPT_COMMANDS, Changes
 from emulator.controller.communications import answers_to, framing_in_force, is_neighbours_reply
+from emulator.controller.compiled.store import CompiledPrograms
 from emulator.controller.dispatch import handles
 from emulator.controller.faults import Faults
 from emulator.controller.interpreter import Interpreter
@@ -99,6 +100,7 @@ class Controller:
             max_labels=machine.memory.labels,
             changes=self.changes,
         )
+        self.compiled = CompiledPrograms(self)
         self.debugging = Debugging()
         self.on_conditions = OnConditions()
         self.variables = Variables(
@@ -456,6 +458,7 @@ class Controller:
         self.timer = Timer()
         self.drive_faulted = [False] * self.settings.axes
         self._enable_lost = not self.wiring.enable_grounded
+        self.compiled.clear()
         self.data_programs.reset()
         self.feedback.reset()
         self.homing.reset()

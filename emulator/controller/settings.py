@@ -6,6 +6,7 @@ port exist once for each port (PORT chooses which one is meant)."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from decimal import Decimal
 
 from emulator.controller.changes import KEPT_COMMANDS, Changes
@@ -273,6 +274,15 @@ class Settings:
         self._names.update(kept_names)
         self._note_modes()
         self._changes.count = changes
+
+    def copy(self) -> Settings:
+        """Settings of their own with the same values: what PCOMP lets the commands of a program change."""
+        twin = copy(self)
+        twin._numbers = {key: list(values) for key, values in self._numbers.items()}
+        twin._bits = {key: list(bits) for key, bits in self._bits.items()}
+        twin._names = dict(self._names)
+        twin._entered = set(self._entered)
+        return twin
 
     def _override(self, name: str, fields: str) -> None:
         row = commands().get(name)

@@ -57,6 +57,7 @@ def system_status(controller: Controller) -> str:
         SystemStatus.WAITING_FOR_RP240: wait is not None and wait.status_bit is SystemStatus.WAITING_FOR_RP240,
         SystemStatus.RP240_CONNECTED: controller.machine.rp240.fitted,
         SystemStatus.NONVOLATILE_MEMORY_ERROR: controller.memory_lost,
+        **controller.compiled.status,
     }
     return word_bits(sum(bit.mask for bit, on in conditions.items() if on), WORD)
 

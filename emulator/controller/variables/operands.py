@@ -212,9 +212,8 @@ def _read_timer(controller: Controller, operand: Operand) -> Value:
 
 @reads("SEG")
 def _read_free_segments(controller: Controller, operand: Operand) -> Value:
-    """Free segments: none is in use while nothing is compiled."""
-    memory = controller.machine.memory
-    return Decimal(memory.compiled_bytes // memory.segment_bytes)
+    """Free segments of compiled memory."""
+    return Decimal(controller.compiled.free)
 
 
 @reads("ANV")
