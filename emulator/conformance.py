@@ -32,7 +32,6 @@ _MOTION: Final = "comes with the motion modes: Following, compiled motion, conto
 _OTHER_PRODUCT: Final = "not a command of the OEM6250; COMMAND NOT IMPLEMENTED is what the unit itself answers"
 
 ABSENT_GROUPS: Final[Mapping[str, str]] = {
-    "contouring": _MOTION,
     "compiled": _MOTION,
     "following": _MOTION,
     "registration": _MOTION,
@@ -50,7 +49,7 @@ ABSENT_ROWS: Final[Mapping[str, str]] = {
 _LINE: Final = "acts with a second port"
 
 STORED_ROWS: Final[Mapping[str, str]] = {
-    **dict.fromkeys(("VF", "PSCLD", "SCLMAS"), _MOTION),
+    **dict.fromkeys(("VF", "SCLMAS"), _MOTION),
     **dict.fromkeys(("LOCK", "DRPCHK"), _LINE),
     **dict.fromkeys(("COMEXK", "FOLK"), "stores only: its existence is not confirmed"),
     "TIMINT": "its alarm goes to the computer bus of other products",

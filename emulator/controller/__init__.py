@@ -8,8 +8,8 @@ from emulator.controller import communications, faults, line, reports, timing
 from emulator.controller.compiled import commands as compiled_commands
 from emulator.controller.controller import Controller
 from emulator.controller.motion import gain_sets, go, homing, jogging, joystick, limits, servo, stopping
-from emulator.controller.paths import linear
 from emulator.controller.output import Output
+from emulator.controller.paths import definition, linear
 from emulator.controller.programs import debugging, flow, listings, on_conditions, program_select
 from emulator.controller.programs import store as program_store
 from emulator.controller.variables import data_programs, reading, timers, writing
@@ -31,7 +31,7 @@ COMMAND_MODULES = (
     *(communications, faults, line, reports, timing),
     *(compiled_commands,),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
-    linear,
+    *(definition, linear),
     *(debugging, flow, listings, on_conditions, program_select, program_store),
     *(data_programs, reading, timers, variable_store, writing),
     *(analog, input_effects, input_functions, inputs, output_functions, output_on_position, outputs),

@@ -25,7 +25,6 @@ from protocol import catalogue
 ERRORS_NOT_YET = {
     text: "its command belongs to a motion mode that is not built"
     for text in (
-        "AXES NOT READY",
         "COMMAND/DRIVE MISMATCH",
         "FOLMAS NOT SPECIFIED",
         "INVALID FOLMAS SPECIFIED",
@@ -35,15 +34,6 @@ ERRORS_NOT_YET = {
         "NOT VALID DURING RAMP",
         "MAXIMUM COUNTS PER SECOND EXCEEDED",
         "ERROR: MOTION ENDS IN NON-ZERO VELOCITY-AXIS n",
-        "NO PATH SEGMENTS DEFINED",
-        "NOT DEFINING A PATH",
-        "NOT ALLOWED IN PATH",
-        "PATH NOT COMPILED",
-        "PATH ALREADY MOVING",
-        "EXCESSIVE PATH RADIUS DIFFERENCE",
-        "PATH RADIUS TOO SMALL",
-        "PATH RADIUS ZERO",
-        "PATH VELOCITY ZERO",
     )
 } | {"NO MOTION IN PROGRESS": "the reference names no command that answers it"}
 """Error texts no transcript can provoke, and why."""

@@ -390,10 +390,9 @@ class TestOneAxis:
 
 
 LATER = [
-    *("FSHFC1", "FSHFD100", "FGADV1", "FMCNEW1", "GOBUF1", "PCOMP P", "PRUN P"),
-    *("PLIN1,1", "PARCM5,5,5", "PARCP1,1,1,1", "TPCA"),
+    *("FSHFC1", "FSHFD100", "FGADV1", "FMCNEW1", "GOBUF1", "TPCA"),
 ]
-"""Other issues' work: Following, compiled motion, registration, contouring, linear interpolation."""
+"""Other issues' work: Following, compiled motion, registration."""
 
 OTHER_PRODUCTS = {
     "FMAXA": "COMMAND NOT IMPLEMENTED",

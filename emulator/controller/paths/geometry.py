@@ -157,9 +157,9 @@ def arc_by_radius(start: Point, end: Point, radius: float, turn: int, tolerance:
     if half_chord - abs(radius) > tolerance:
         raise CommandError(PATH_RADIUS_TOO_SMALL)
     size = max(abs(radius), half_chord)
-    height = math.copysign(math.sqrt((size - half_chord) * (size + half_chord)), radius)
-    centre = _beside_chord(start, end, turn * height)
-    half_sweep = math.asin(min(1.0, half_chord / size))
+    height = math.sqrt((size - half_chord) * (size + half_chord))
+    centre = _beside_chord(start, end, math.copysign(height, turn * radius))
+    half_sweep = math.atan2(half_chord, height)
     sweep = 2.0 * half_sweep if radius > 0.0 else FULL_TURN - 2.0 * half_sweep
     return _arc(start, end, centre, sweep, turn)
 

@@ -123,6 +123,11 @@ class Paths:
         """Whether a path that is not over yet has this axis."""
         return self._of(axis_index) is not None
 
+    def travels(self, course: Course, axis_index: int) -> bool:
+        """Whether a course is under way and moves this axis."""
+        motion = self._of(axis_index)
+        return motion is not None and motion.course is course and self._controller.engine.is_moving(axis_index)
+
     def under_way(self) -> list[PathMotion]:
         """The paths that are not over."""
         moving = self._controller.engine.is_moving

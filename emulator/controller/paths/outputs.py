@@ -7,11 +7,36 @@ of an update later, so that with updates of 2 ms they change from 1.5 ms before 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import zip_longest
 from typing import TYPE_CHECKING
+
+from protocol.errors import INCORRECT_DATA, INVALID_DATA, CommandError
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
     from emulator.controller.paths.motion import Course
+    from protocol.command import Command
+
+
+def pattern_of(command: Command, count: int) -> str:
+    """The outputs an output command names, left to right from output 1: 0, 1, or X where it says nothing.
+
+    Raises:
+        CommandError: an output the unit does not have, or no pattern at all.
+    """
+    if command.bit is not None:
+        if not 1 <= command.bit <= count or command.bit_value not in ("0", "1", "X"):
+            raise CommandError(INVALID_DATA)
+        return "X" * (command.bit - 1) + command.bit_value
+    if not command.mask or "1" in command.mask[count:]:
+        raise CommandError(INCORRECT_DATA)
+    return command.mask[:count]
+
+
+def merged(first: str, then: str) -> str:
+    """Two patterns, one after the other, as one."""
+    pairs = zip_longest(first, then, fillvalue="X")
+    return "".join(old if new == "X" else new for old, new in pairs)
 
 
 def switching_update_ns(begins_ns: int, *, an_update_ns: int, period_ns: int) -> int:
@@ -57,6 +82,4 @@ class SwitchedOutputs:
 
 def set_outputs(controller: Controller, pattern: str) -> None:
     """Set outputs left to right from output 1; X keeps one."""
-    present = controller.settings.bits("OUT")
-    changed = "".join(old if new == "X" else new for old, new in zip(present, pattern, strict=False))
-    controller.settings.store_bits("OUT", changed + present[len(changed) :])
+    controller.settings.store_bits("OUT", merged(controller.settings.bits("OUT"), pattern))

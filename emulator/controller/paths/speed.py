@@ -25,8 +25,8 @@ class Stretch(NamedTuple):
     deceleration: float
 
 
-ROUNDING = 1e-9
-"""Share of a stretch that is nothing: between two ramps there is no level part then."""
+ROUNDING = 1e-5
+"""Counts of path that are nothing: between two ramps there is no level part then."""
 
 
 def plan_speed(stretches: Sequence[Stretch]) -> tuple[Segments, ...]:
@@ -84,7 +84,7 @@ def _trapezoid(stretch: Stretch, entry: float, leave: float) -> Iterator[Segment
     if peak > entry:
         yield Segment((peak - entry) / up, 0.0, entry, up, 0.0)
     level = length - rise - fall
-    if peak > 0.0 and level > ROUNDING * length:
+    if peak > 0.0 and level > ROUNDING:
         yield Segment(level / peak, rise, peak, 0.0, 0.0)
     if peak > leave:
         yield Segment((peak - leave) / down, rise + max(level, 0.0), peak, -down, 0.0)

@@ -33,14 +33,14 @@ def out(controller: Controller, command: Command) -> Lines:
     if "1" in command.mask[count:]:
         raise CommandError(INCORRECT_DATA)
     if command.bit is not None:
-        _refuse_assigned(controller, {command.bit})
+        refuse_assigned(controller, {command.bit})
     else:
-        _refuse_assigned(controller, {n for n, digit in enumerate(command.mask, start=1) if digit in "01"})
+        refuse_assigned(controller, {n for n, digit in enumerate(command.mask, start=1) if digit in "01"})
     controller.settings.assign(command)
     return None
 
 
-def _refuse_assigned(controller: Controller, numbers: set[int]) -> None:
+def refuse_assigned(controller: Controller, numbers: set[int]) -> None:
     """An output with a function is not the program's to switch, whatever OUTFEN says (assumed).
 
     Raises:
@@ -59,7 +59,7 @@ def out_all(controller: Controller, command: Command) -> Lines:
     first, last, state = (int(value) for value in values)
     if not 1 <= first <= last <= controller.output_functions.count or state not in (0, 1):
         raise CommandError(INVALID_DATA)
-    _refuse_assigned(controller, set(range(first, last + 1)))
+    refuse_assigned(controller, set(range(first, last + 1)))
     bits = controller.settings.bits("OUT")
     controller.settings.store_bits("OUT", bits[: first - 1] + str(state) * (last - first + 1) + bits[last:])
     return None

