@@ -6,6 +6,7 @@ the axes, `paths` moves them together.  A controller knows nothing of ports.
 
 from emulator.controller import communications, faults, line, reports, timing
 from emulator.controller.compiled import commands as compiled_commands
+from emulator.controller.compiled import profile_builder
 from emulator.controller.controller import Controller
 from emulator.controller.motion import gain_sets, go, homing, jogging, joystick, limits, servo, stopping
 from emulator.controller.output import Output
@@ -29,7 +30,7 @@ from emulator.controller.wires import (
 
 COMMAND_MODULES = (
     *(communications, faults, line, reports, timing),
-    *(compiled_commands,),
+    *(compiled_commands, profile_builder),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
     *(definition, linear),
     *(debugging, flow, listings, on_conditions, program_select, program_store),

@@ -392,6 +392,7 @@ class Controller:
             axis_events = self.engine.axis_events(axis_index)
             if axis_events:
                 self._act_on_axis(axis_index, axis_events)
+        self.compiled.look()
 
     def _act_on_axis(self, axis_index: int, events: Event) -> None:
         events = self.homing.act_on(axis_index, events)

@@ -44,8 +44,12 @@ PORT_SETTINGS = frozenset({"ECHO", "EOT", "BOT", "EOL", "ERROK", "ERRBAD", "ERRD
 
 HOST_PORT = 1
 
-DISCRETE_VALUES: Mapping[str, frozenset[int]] = {"SSFR": frozenset({1, 2, 4, 8})}
-"""Settings whose range has holes (APEX p.83)."""
+DISCRETE_VALUES: Mapping[str, frozenset[int]] = {
+    "SSFR": frozenset({1, 2, 4, 8}),
+    "VF": frozenset({0}),
+    "FOLRNF": frozenset({0}),
+}
+"""Settings whose range has holes (SSFR: APEX p.83; FOLRNF: 6000 PG p.166, VF taken as the same)."""
 
 ANI_FEEDBACK = 2
 
@@ -396,7 +400,7 @@ class Settings:
         allowed = DISCRETE_VALUES.get(name)
         no_ani = name == "SFB" and number == ANI_FEEDBACK and not self._ani_fitted
         too_slow = name in FOLLOWED and 0 < number < self._acceleration_range[0]
-        if no_ani or too_slow or (allowed is not None and int(number) not in allowed):
+        if no_ani or too_slow or (allowed is not None and number not in allowed):
             raise CommandError(INVALID_DATA if fields == 1 else f"{INVALID_DATA}-FIELD {index + 1}")
 
     def _turned(self, name: str, direction: Direction, index: int) -> Quantity:

@@ -73,6 +73,6 @@ def go_along_arc(axis: Record, segment: Record, length: float, speed: float, spe
     angle = segment["phase"] + curvature * length
     across, along = radius * cosine(angle, 0), -radius * cosine(angle, SINE)
     turning = curvature * speed
-    axis["commanded_counts"] = math.floor(segment["centre"] + across + 0.5)
+    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(segment["centre"] + across + 0.5)
     axis["commanded_velocity"] = along * turning
     axis["commanded_acceleration"] = along * (curvature * speed_rate) - across * (turning * turning)

@@ -18,6 +18,7 @@ from .events import (
     EVENT_HARD_LIMIT,
     EVENT_MOVE_ENDED,
     EVENT_POSITION_ERROR,
+    EVENT_ROWS_LOW,
     EVENT_SETTLE_TIMEOUT,
     EVENT_SETTLED,
     EVENT_SOFT_LIMIT,
@@ -50,6 +51,7 @@ from .status import (
     axis_status,
     in_target_zone,
 )
+from .streaming import NO_REFILL
 from .travel import CAPTURE_NONE, capture, operate_switches
 from .watches import check_watches
 
@@ -71,7 +73,7 @@ def hold_still(axis: Record) -> None:
 @seldom
 def end_profile(axis: Record, now_ns: int) -> None:
     """Arrive exactly at the profile's end and start waiting for the target zone."""
-    axis["commanded_counts"] = math.floor(axis["profile_end_counts"] + 0.5)
+    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(axis["profile_end_counts"] + 0.5)
     hold_still(axis)
     axis["pending_events"] |= EVENT_MOVE_ENDED
     axis["settling"] = axis["target_zone_enable"]
@@ -91,6 +93,9 @@ def follow_profile(axis: Record, segments: Records, now_ns: int) -> None:
     while index + 1 < axis["segment_count"] and elapsed_s >= segments[first + index + 1]["start_s"]:
         index += 1
     axis["segment_index"] = index
+    if index >= axis["refill_index"]:
+        axis["refill_index"] = NO_REFILL
+        axis["pending_events"] |= EVENT_ROWS_LOW
     segment = segments[first + index]
     t = elapsed_s - segment["start_s"]
     half_rate = 0.5 * segment["jerk"] * t
@@ -102,7 +107,7 @@ def follow_profile(axis: Record, segments: Records, now_ns: int) -> None:
     if segment["radius"] != 0.0:
         go_along_arc(axis, segment, position, velocity, acceleration)
         return
-    axis["commanded_counts"] = math.floor(position + 0.5)
+    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(position + 0.5)
     axis["commanded_velocity"] = velocity
     axis["commanded_acceleration"] = acceleration
 

@@ -19,6 +19,7 @@ EVENT_VALUE = 128
 EVENT_WIRES = 256
 EVENT_HOME_EDGE = 512
 EVENT_INDEX = 1024
+EVENT_ROWS_LOW = 1 << 20
 
 
 class Event(IntFlag):
@@ -47,6 +48,8 @@ class Event(IntFlag):
     """The home input changed as an armed capture waited for."""
     INDEX = EVENT_INDEX
     """The encoder passed an index pulse as an armed capture waited for."""
+    ROWS_LOW = EVENT_ROWS_LOW
+    """More of a streamed profile was taken from its iterator, marks and all."""
 
 
 class Signal(IntEnum):

@@ -57,7 +57,9 @@ AXIS_FIELDS: Fields = (
     ("profile_active", INT, "1 = a profile is running, or waits for its first trajectory update"),
     ("profile_start_ns", INT, "time of the trajectory update at which the profile begins, ns"),
     ("profile_end_s", FLOAT, "duration of the profile, s (infinite while moving on at constant velocity)"),
-    ("profile_end_counts", FLOAT, "raw commanded position at the end of the profile, counts"),
+    ("profile_end_counts", FLOAT, "commanded position at the end of the profile, counts from profile_origin_counts"),
+    ("profile_origin_counts", INT, "raw position from which the positions of the profile's rows count, counts"),
+    ("refill_index", INT, "segment of the profile in which the kernel asks for more rows"),
     ("first_segment", INT, "row of the profile's first segment in the segment table"),
     ("segment_count", INT, "segments in the profile"),
     ("segment_index", INT, "segment in force, 0 = first"),
@@ -226,12 +228,16 @@ PLANT_FIELDS: Fields = (
 
 SEGMENT_FIELDS: Fields = (
     ("start_s", FLOAT, "start within the profile, s"),
-    ("position", FLOAT, "raw position at the start, counts; on an arc the length of it travelled by then"),
+    (
+        "position",
+        FLOAT,
+        "position at the start, counts from the profile's origin; on an arc the length travelled",
+    ),
     ("velocity", FLOAT, "velocity at the start, counts/s; on an arc along the path"),
     ("acceleration", FLOAT, "acceleration at the start, counts/s2; on an arc along the path"),
     ("jerk", FLOAT, "jerk, counts/s3"),
     ("radius", FLOAT, "radius of the arc, counts; 0 = the axis moves straight"),
-    ("centre", FLOAT, "raw position of the arc's centre on this axis, counts"),
+    ("centre", FLOAT, "the arc's centre on this axis, counts from the profile's origin"),
     ("phase", FLOAT, "angle from this axis's positive direction at the beginning of the arc, rad"),
     ("curvature", FLOAT, "change of that angle, rad per count of path"),
 )

@@ -84,9 +84,8 @@ class Memory:
         self.units["segment_capacity"] = capacity
         return True
 
-    def store_segments(self, axis_index: int, segments: Sequence[Segment]) -> None:
-        """Write an axis's profile into the segment table; there must be room for it."""
-        start_s = 0.0
+    def store_segments(self, axis_index: int, segments: Sequence[Segment], *, start_s: float = 0.0) -> None:
+        """Write an axis's profile into the segment table, the first row beginning at `start_s`; there must be room."""
         first = axis_index * self.capacity
         for row, segment in enumerate(segments, start=first):
             self.segments[row] = (start_s, *segment[1:])

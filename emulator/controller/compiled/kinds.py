@@ -1,10 +1,10 @@
 """What a kind of compiled motion offers to PCOMP and PRUN, and the kinds there are.
 
 A kind registers itself once, at import, with ``register``.  PCOMP recognises the kind of a program by the first command
-in it that makes segments (GOBUF, PLIN ...), makes a builder and hands it the program's commands one by one.  Commands of
-``Kind.settings`` change a copy of the unit's settings that lives as long as the compilation: a program is compiled with
-the values in force at PCOMP as its own commands change them, and the unit's settings stay as they are (assumed).  All
-other commands go to ``MotionBuilder.take``, if they are the kind's; the rest is NOT ALLOWED IN PATH.
+in it that makes segments (GOBUF, PLIN ...), makes a builder and hands it the program's commands one by one.  Commands
+of ``Kind.settings`` change a copy of the unit's settings that lives as long as the compilation: a program is compiled
+with the values in force at PCOMP as its own commands change them, and the unit's settings stay as they are (assumed).
+All other commands go to ``MotionBuilder.take``, if they are the kind's; the rest is NOT ALLOWED IN PATH.
 """
 
 from __future__ import annotations
@@ -37,6 +37,10 @@ class MotionRun(Protocol):
 
     def moves(self, axis_index: int) -> bool:
         """Whether it still has an axis: false once its last segment is over, or something else moves or stopped it."""
+        ...
+
+    def end(self) -> None:
+        """It has lost all its axes; nothing of it may act any more."""
         ...
 
 

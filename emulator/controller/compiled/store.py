@@ -70,6 +70,8 @@ class CompiledPrograms:
     def clear(self) -> None:
         """Nothing is compiled, nothing runs (power-down, RESET, ERASE, MEMORY)."""
         self._motions.clear()
+        for run in self._runs.values():
+            run.end()
         self._runs.clear()
         self.failed = False
 
@@ -77,8 +79,15 @@ class CompiledPrograms:
 
     def start(self, name: str) -> MotionRun:
         """Start a compiled program."""
+        self.look()
         run = self._runs[name] = self._motions[name].start(self._controller)
         return run
+
+    def look(self) -> None:
+        """Something has happened: forget what is over."""
+        if self._runs:
+            for name in [name for name, run in self._runs.items() if not is_under_way(run)]:
+                self._runs.pop(name).end()
 
     def running(self, name: str) -> bool:
         """Whether a compiled program has an axis in motion."""

@@ -27,6 +27,7 @@ from protocol.status import AxisStatus, ErrorStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
+    from emulator.controller.settings import Settings
 
 OPEN_LOOP = 0
 
@@ -73,7 +74,8 @@ def _axes_to_start(controller: Controller, command: Command) -> list[int]:
 
 
 def check_ready(controller: Controller, axes: Iterable[int]) -> None:
-    """Refuse to start axes that cannot move, or that homing, jogging, the joystick or a path moves already.
+    """Refuse to start axes that cannot move, or that homing, jogging, the joystick, a path or a compiled profile moves
+    already.
 
     Raises:
         CommandError: ENABLE open, drive shut down, open loop, MOTION IN PROGRESS (for the jog and joystick modes
@@ -87,7 +89,8 @@ def check_ready(controller: Controller, axes: Iterable[int]) -> None:
         if controller.settings.integer("SFB", axis_index) == OPEN_LOOP:
             raise CommandError(NOT_ALLOWED_IF_SFB0)
         by_hand = controller.settings.flag("JOG", axis_index) or controller.settings.flag("JOY", axis_index)
-        if by_hand or controller.homing.active(axis_index) or controller.paths.carries(axis_index):
+        by_others = controller.paths.carries(axis_index) or controller.compiled.moves(axis_index)
+        if by_hand or by_others or controller.homing.active(axis_index):
             raise CommandError(MOTION_IN_PROGRESS)
 
 
@@ -112,7 +115,11 @@ def check_s_curve(controller: Controller, axis_index: int, family: str = "") -> 
     Raises:
         CommandError: INVALID CONDITIONS FOR S_CURVE ...
     """
-    settings = controller.settings
+    check_s_curve_of(controller.settings, axis_index, family)
+
+
+def check_s_curve_of(settings: Settings, axis_index: int, family: str = "") -> None:
+    """As ``check_s_curve``, of settings that need not be the unit's own."""
     maximum, average = settings.counts(f"{family}A", axis_index), settings.counts(f"{family}AA", axis_index)
     if not maximum <= 2 * average <= 2 * maximum:
         raise s_curve_acceleration(axis_index + 1)
@@ -131,13 +138,20 @@ def start(controller: Controller, axis_index: int) -> None:
     else:
         distance = preset_target(controller, axis_index) - engine.profile_state(axis_index).position
         direction = (distance > 0) - (distance < 0)
-    if held_by_limit(controller, axis_index, direction):
+    if not may_start(controller, axis_index, direction):
         return
-    forget_refusals(controller, axis_index)
     if controller.settings.flag("MC", axis_index):
         engine.start_profile(axis_index, _continuous(controller, axis_index, direction))
     else:
         _start_preset(controller, axis_index)
+
+
+def may_start(controller: Controller, axis_index: int, direction: int) -> bool:
+    """Whether no limit is in the way; if so what a legal GO clears is cleared, if not the limit latches its bits."""
+    if held_by_limit(controller, axis_index, direction):
+        return False
+    forget_refusals(controller, axis_index)
+    return True
 
 
 def held_by_limit(controller: Controller, axis_index: int, direction: int) -> bool:

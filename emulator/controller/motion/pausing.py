@@ -44,10 +44,13 @@ class Pausing:
         stop_axes(controller, moving, "AD")
 
     def _resumable(self, axis_index: int) -> bool:
-        """Homing, jogging and the joystick do not go on after a pause (assumed); paths do, as a whole."""
+        """Homing, jogging, the joystick and compiled profiles do not go on after a pause (assumed); paths do, as a
+        whole."""
         if self._controller.paths.carries(axis_index):
             return False
         by_hand = any(self._controller.settings.flag(mode, axis_index) for mode in ("JOG", "JOY"))
+        if self._controller.compiled.moves(axis_index):
+            return False
         return not by_hand and not self._controller.homing.active(axis_index)
 
     def _move(self, axis_index: int) -> PausedMove:

@@ -64,3 +64,6 @@ class ContourRun:
     def moves(self, axis_index: int) -> bool:
         """Whether the path still has an axis."""
         return self.controller.paths.travels(self.course, axis_index)
+
+    def end(self) -> None:
+        """It leaves nothing behind: outputs of segments that it has not reached are not switched."""

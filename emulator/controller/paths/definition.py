@@ -27,9 +27,9 @@ from emulator.controller.paths.geometry import (
     arc_by_centre,
     arc_by_radius,
 )
-from emulator.controller.paths.outputs import merged, pattern_of
+from emulator.controller.paths.outputs import merged
 from emulator.controller.paths.speed import Stretch
-from emulator.controller.wires.outputs import refuse_assigned
+from emulator.controller.wires.outputs import output_pattern
 from protocol.command import Command
 from protocol.errors import (
     INCORRECT_AXIS,
@@ -152,8 +152,9 @@ class PathBuilder:
 
     def _switch_outputs(self, command: Command) -> None:
         """POUT: for the segment that comes next; several in front of one add up (assumed)."""
-        pattern = pattern_of(command, self._controller.output_functions.count)
-        refuse_assigned(self._controller, {n for n, digit in enumerate(pattern, start=1) if digit in "01"})
+        if not command.mask and command.bit is None:
+            raise CommandError(INCORRECT_DATA)
+        pattern = output_pattern(self._controller, command)
         following = len(self._pieces)
         self._outputs[following] = merged(self._outputs.get(following, ""), pattern)
 

@@ -10,39 +10,18 @@ from collections.abc import Mapping
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from protocol.errors import INCORRECT_DATA, INVALID_DATA, CommandError
+from emulator.controller.compiled.profile import OUTPUTS_AHEAD, system_update_near
+from emulator.controller.wires.outputs import switch_outputs
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
     from emulator.controller.paths.motion import Course
-    from protocol.command import Command
-
-
-def pattern_of(command: Command, count: int) -> str:
-    """The outputs an output command names, left to right from output 1: 0, 1, or X where it says nothing.
-
-    Raises:
-        CommandError: an output the unit does not have, or no pattern at all.
-    """
-    if command.bit is not None:
-        if not 1 <= command.bit <= count or command.bit_value not in ("0", "1", "X"):
-            raise CommandError(INVALID_DATA)
-        return "X" * (command.bit - 1) + command.bit_value
-    if not command.mask or "1" in command.mask[count:]:
-        raise CommandError(INCORRECT_DATA)
-    return command.mask[:count]
 
 
 def merged(first: str, then: str) -> str:
-    """Two patterns, one after the other, as one."""
+    """Two patterns (0, 1 or X, output 1 first), one after the other, as one."""
     pairs = zip_longest(first, then, fillvalue="X")
     return "".join(old if new == "X" else new for old, new in pairs)
-
-
-def switching_update_ns(begins_ns: int, *, an_update_ns: int, period_ns: int) -> int:
-    """The system update at which outputs change for a piece that begins at a time; ``an_update_ns`` is any of them."""
-    earliest_ns = begins_ns - 3 * period_ns // 4 + 1
-    return an_update_ns - (an_update_ns - earliest_ns) // period_ns * period_ns
 
 
 class SwitchedOutputs:
@@ -65,11 +44,10 @@ class SwitchedOutputs:
                 self._switch_at(at_ns, piece)
 
     def _switch_at(self, begins_ns: int, piece: int) -> None:
-        engine, plan = self._controller.engine, self._plan
-        at_ns = switching_update_ns(
-            begins_ns, an_update_ns=engine.next_system_update_ns, period_ns=engine.rates.system_ns
-        )
-        if at_ns <= engine.time_ns:
+        share, whole = OUTPUTS_AHEAD
+        ahead_ns = share * self._controller.engine.rates.system_ns // whole
+        at_ns, plan = system_update_near(self._controller, begins_ns - ahead_ns + 1), self._plan
+        if at_ns <= self._controller.now_ns:
             self._switch(piece, plan)
         else:
             self._controller.alarms.at(at_ns, lambda: self._switch(piece, plan))
@@ -77,9 +55,4 @@ class SwitchedOutputs:
     def _switch(self, piece: int, plan: int) -> None:
         if plan == self._plan and self._course is not None:
             self._switched.add(piece)
-            set_outputs(self._controller, self._course.outputs[piece])
-
-
-def set_outputs(controller: Controller, pattern: str) -> None:
-    """Set outputs left to right from output 1; X keeps one."""
-    controller.settings.store_bits("OUT", merged(controller.settings.bits("OUT"), pattern))
+            switch_outputs(self._controller, self._course.outputs[piece])

@@ -1,0 +1,136 @@
+"""GOBUF segments over time: from the settings in force to pieces of a streamed profile."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import chain
+from math import inf
+from typing import TYPE_CHECKING
+
+from emulator.controller.compiled.axis_builder import AxisBuilder
+from emulator.controller.compiled.blending import TimedMove, blend
+from emulator.controller.compiled.loops import Planned, pieces_of
+from emulator.controller.compiled.marks import Held, Marks, Over
+from emulator.controller.compiled.profile_axis import ProfileAxis
+from emulator.engine import Engine, Segment
+from emulator.engine.rates import NS_PER_S
+from emulator.engine.streaming import ENDLESS, PARTS_PER_COUNT, Stream, StreamedSegment
+
+if TYPE_CHECKING:
+    from emulator.controller.controller import Controller
+    from emulator.controller.settings import Settings
+
+
+@dataclass(frozen=True, slots=True)
+class TimedSegment:
+    """A GOBUF: its move, and what goes with its beginning."""
+
+    move: TimedMove
+    marks: Marks
+
+
+@dataclass(frozen=True, slots=True)
+class TimedPlanner:
+    """Plans the segments of one axis; ``system_s`` is the system update period in force at PCOMP."""
+
+    system_s: float
+
+    def plan(self, move: TimedSegment, entry: float) -> tuple[tuple[StreamedSegment, ...], float]:
+        """The pieces of a segment, marked, and the velocity at its end.  Raises CannotBlend."""
+        pieces, leaving = blend(move.move, entry, system_s=self.system_s)
+        if move.marks.outputs is not None:
+            first, *others = pieces or (StreamedSegment(Segment(0.0, 0.0, entry, 0.0, 0.0), 0, 0),)
+            pieces = (first._replace(mark=move.marks), *others)
+        if move.marks.hold is not None:
+            pieces = (_endless(entry, Held(move.marks.hold)), *pieces)
+        return pieces, leaving
+
+    def travel(self, piece: StreamedSegment) -> Fraction:
+        """Counts a piece moves the axis."""
+        return Fraction(piece.displacement, PARTS_PER_COUNT)
+
+    def lasts(self, piece: StreamedSegment) -> bool:
+        """Whether a piece takes time."""
+        return piece.duration != 0
+
+
+def _endless(velocity: float, mark: object) -> StreamedSegment:
+    return StreamedSegment(Segment(inf, 0.0, velocity, 0.0, 0.0), ENDLESS, 0, mark)
+
+
+class TimedAxis(ProfileAxis):
+    """An axis that moves in time, from where it is commanded to be at PCOMP (which MA1 counts with)."""
+
+    def __init__(self, controller: Controller, axis_index: int) -> None:
+        planner = TimedPlanner(controller.engine.rates.system_ns / NS_PER_S)
+        position = Fraction(controller.engine.commanded_position(axis_index))
+        self._timed: AxisBuilder[TimedSegment, StreamedSegment, float] = AxisBuilder(
+            axis_index, planner, position=position, at_rest=0.0
+        )
+        super().__init__(axis_index, self._timed)
+
+    def add_segment(self, settings: Settings, marks: Marks, *, ends_at_rest: bool) -> int:
+        """A segment made of A, AA, AD, ADA, V, D, MA and MC."""
+        move = timed_move(settings, self.axis_index, self._timed.position, ends_at_rest=ends_at_rest)
+        self._timed.add(TimedSegment(move, marks))
+        return (move.velocity > 0.0) - (move.velocity < 0.0)
+
+    def profile(self) -> TimedProfile:
+        """All segments."""
+        return TimedProfile(self.axis_index, self.direction, tuple(self._timed.planned), self._timed.speed)
+
+
+def timed_move(settings: Settings, axis_index: int, position: Fraction, *, ends_at_rest: bool) -> TimedMove:
+    """What the settings make of a segment that begins at `position`, counts."""
+    counts = settings.counts
+    whole, continuous = int(counts("D", axis_index)), settings.flag("MC", axis_index)
+    travel = float(whole - position) if settings.flag("MA", axis_index) and not continuous else float(whole)
+    velocity = float(counts("V", axis_index))
+    return TimedMove(
+        distance=None if continuous else travel,
+        velocity=-velocity if travel < 0.0 else velocity,
+        acceleration=float(counts("A", axis_index)),
+        deceleration=float(counts("AD", axis_index)),
+        average_acceleration=float(counts("AA", axis_index)),
+        average_deceleration=float(counts("ADA", axis_index)),
+        ends_at_rest=ends_at_rest,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class TimedProfile:
+    """The compiled profile of an axis that moves in time; ``exit_velocity`` is the one it runs on at, counts/s."""
+
+    axis_index: int
+    direction: int
+    planned: Sequence[Planned[StreamedSegment]]
+    exit_velocity: float
+
+    def pieces(self) -> Iterator[StreamedSegment]:
+        """Every piece in turn, and the endless one it ends with if it does not end at rest."""
+        running_on = (_endless(self.exit_velocity, Over()),) if self.exit_velocity else ()
+        return chain(pieces_of(self.planned), running_on)
+
+    def start(self, controller: Controller, on_mark: Callable[[int, object], None]) -> TimedMotion:
+        """Start it at the next trajectory update."""
+        stream = controller.engine.stream_profile(self.axis_index, self.pieces(), on_mark)
+        return TimedMotion(controller.engine, self.axis_index, stream)
+
+
+@dataclass(frozen=True, slots=True)
+class TimedMotion:
+    """A streamed profile under way."""
+
+    engine: Engine
+    axis_index: int
+    stream: Stream
+
+    def in_force(self) -> bool:
+        """Whether it moves the axis."""
+        return self.engine.streams(self.axis_index, self.stream)
+
+    def resume(self) -> None:
+        """Leave the endless piece it waits in."""
+        self.engine.resume_stream(self.axis_index)
