@@ -14,6 +14,7 @@ from emulator.controller.motion.go import forget_refusals, held_by_limit
 from emulator.controller.paths.geometry import Piece
 from emulator.controller.paths.motion import Course, axes_at, first_headings
 from emulator.controller.paths.speed import Stretch
+from protocol.errors import AXES_NOT_READY, CommandError
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -35,7 +36,13 @@ class ContourPath:
         return len(self.pieces)
 
     def start(self, controller: Controller) -> ContourRun:
-        """Start it from where the axes are; nothing moves if a limit lies in the way of one."""
+        """Start it from where the axes are; nothing moves if a limit lies in the way of one.
+
+        Raises:
+            CommandError: AXES NOT READY for an axis that is a slave (FOLEN1): a path is travelled in time (assumed).
+        """
+        if any(controller.settings.flag("FOLEN", axis_index) for axis_index in self.axes):
+            raise CommandError(AXES_NOT_READY)
         headings = first_headings(self.pieces, len(self.axes))
         held = [held_by_limit(controller, axis, heading) for axis, heading in zip(self.axes, headings, strict=True)]
         course = self._course(axes_at(controller, self.axes))

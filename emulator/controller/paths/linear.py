@@ -35,7 +35,8 @@ def go_linear(controller: Controller, command: Command) -> Lines:
     (assumed).  An axis with D0 takes part and stays where it is.
 
     Raises:
-        CommandError: an axis that cannot start (nothing starts then), MC1, S-curve rule, PV0.
+        CommandError: an axis that cannot start (nothing starts then), MC1, a slave (FOLEN1, assumed), S-curve rule,
+            PV0.
     """
     named = named_axes(controller, command)
     axes = list(range(controller.settings.axes_in_use)) if named is None else named
@@ -54,7 +55,7 @@ def check_linear(controller: Controller, axes: list[int]) -> None:
     """
     check_ready(controller, axes)
     for axis_index in axes:
-        if controller.settings.flag("MC", axis_index):
+        if controller.settings.flag("MC", axis_index) or controller.settings.flag("FOLEN", axis_index):
             raise CommandError(f"{INVALID_CONDITIONS}-AXIS {axis_index + 1}")
         if controller.engine.is_moving(axis_index):
             raise CommandError(MOTION_IN_PROGRESS)

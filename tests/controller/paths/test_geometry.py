@@ -103,6 +103,14 @@ def test_a_full_circle(turn: int) -> None:
     assert at(arc, arc.length / 4) == pytest.approx((0, turn * 100), abs=1e-9)
 
 
+def test_the_shares_of_four_axes() -> None:
+    """The four-axis row of following-and-profiles 6.1; a path is not limited to two axes by its arithmetic."""
+    line = Line((0, 0, 0, 0), (10, 5, 2, 11))
+    assert line.length == pytest.approx(15.811388, abs=1e-6)
+    speeds = [line.share(Segment(1.0, 0.0, 5.0, 0.0, 0.0), axis).velocity for axis in range(4)]
+    assert speeds == pytest.approx([3.162278, 1.581139, 0.632456, 3.478505], abs=1e-6)
+
+
 def test_radii_that_are_refused() -> None:
     for radius, text in ((0.0, "PATH RADIUS ZERO"), (49.0, "PATH RADIUS TOO SMALL"), (-49.0, "PATH RADIUS TOO SMALL")):
         with pytest.raises(CommandError, match=rf"^{text}$"):
