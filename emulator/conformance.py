@@ -28,12 +28,11 @@ State = Literal["implemented", "stored", "absent"]
 TRANSCRIPTS: Final = Path(__file__).parents[1] / "tests" / "transcripts"
 """Where the transcripts are in a source tree; an installed package has none."""
 
-_MOTION: Final = "comes with the motion modes: Following, compiled motion, contouring, registration"
+_MOTION: Final = "comes with the motion modes: compiled motion, contouring, registration"
 _OTHER_PRODUCT: Final = "not a command of the OEM6250; COMMAND NOT IMPLEMENTED is what the unit itself answers"
 
 ABSENT_GROUPS: Final[Mapping[str, str]] = {
     "compiled": _MOTION,
-    "following": _MOTION,
     "registration": _MOTION,
 }
 """Groups of which absent rows have one reason."""
@@ -41,15 +40,14 @@ ABSENT_GROUPS: Final[Mapping[str, str]] = {
 ABSENT_ROWS: Final[Mapping[str, str]] = {
     "TRANS": "translation mode needs the computer bus of other products; only its default is accepted",
     **dict.fromkeys(("GOWHEN", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
-    **dict.fromkeys(("PMAS", "PSLV", "PSHF", "NMCY", "VMAS", "FS"), _MOTION),
-    **dict.fromkeys(("TPCA", "TPCC", "TPCE", "TPMAS", "TPSLV", "TPSHF", "TNMCY", "TVMAS", "TFS", "TFSF"), _MOTION),
+    **dict.fromkeys(("TPCA", "TPCC", "TPCE"), _MOTION),
 }
 """Absent rows of other groups, each with its reason."""
 
 _LINE: Final = "acts with a second port"
 
 STORED_ROWS: Final[Mapping[str, str]] = {
-    **dict.fromkeys(("VF", "SCLMAS"), _MOTION),
+    **dict.fromkeys(("VF", "FOLRNF"), _MOTION),
     **dict.fromkeys(("LOCK", "DRPCHK"), _LINE),
     **dict.fromkeys(("COMEXK", "FOLK"), "stores only: its existence is not confirmed"),
     "TIMINT": "its alarm goes to the computer bus of other products",

@@ -18,7 +18,7 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 
 from emulator.machine_errors import MachineError, explain
-from emulator.machine_settings import check_command_name, merged_settings, usual_settings
+from emulator.machine_settings import check_command_name, master_conflicts, merged_settings, usual_settings
 from emulator.machine_tables import (
     LOWEST_BAUD,
     REALISTIC_TIMING,
@@ -234,6 +234,7 @@ def _conflicts(machine: Machine) -> list[tuple[str, str, str]]:
         *_travel_conflicts(machine),
         *_serial_conflicts(machine),
         *_plant_conflicts(machine),
+        *master_conflicts(machine.defaults, ani_fitted=machine.options.ani),
     ]
 
 

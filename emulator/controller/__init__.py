@@ -9,6 +9,7 @@ from emulator.controller.compiled import commands as compiled_commands
 from emulator.controller.compiled import profile_builder
 from emulator.controller.controller import Controller
 from emulator.controller.motion import gain_sets, go, homing, jogging, joystick, limits, servo, stopping
+from emulator.controller.motion.following import advance, assignment, cycles, sampling, shifts
 from emulator.controller.output import Output
 from emulator.controller.paths import definition, linear
 from emulator.controller.programs import debugging, flow, listings, on_conditions, program_select
@@ -32,6 +33,7 @@ COMMAND_MODULES = (
     *(communications, faults, line, reports, timing),
     *(compiled_commands, profile_builder),
     *(gain_sets, go, homing, jogging, joystick, limits, servo, stopping),
+    *(advance, assignment, cycles, sampling, shifts),
     *(definition, linear),
     *(debugging, flow, listings, on_conditions, program_select, program_store),
     *(data_programs, reading, timers, variable_store, writing),

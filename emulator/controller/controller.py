@@ -24,6 +24,7 @@ from emulator.controller.interpreter import Interpreter
 from emulator.controller.line import InstantLine, build_line
 from emulator.controller.line.disturbances import Disturbances
 from emulator.controller.motion.feedback import FeedbackSources
+from emulator.controller.motion.following.moves import RatioMoves
 from emulator.controller.motion.gain_sets import SavedGains
 from emulator.controller.motion.homing import Homing
 from emulator.controller.motion.jogging import Jogging
@@ -132,6 +133,7 @@ class Controller:
         self.drive_faulted = [False] * self.settings.axes
         self.gain_sets: dict[int, list[SavedGains]] = {}
         self.feedback = FeedbackSources(self.settings)
+        self.ratio_moves = RatioMoves(self)
         self.homing = Homing(self)
         self.jogging = Jogging(self)
         self.joystick = Joystick(self)
@@ -462,6 +464,7 @@ class Controller:
         self.compiled.clear()
         self.data_programs.reset()
         self.feedback.reset()
+        self.ratio_moves.reset()
         self.homing.reset()
         self.jogging.reset()
         self.joystick.reset()

@@ -66,7 +66,7 @@ SETTING_REPLIES = frozenset({"numbers", "mask", "word", "name"})
 SWITCHES_WITHOUT_FUNCTION = frozenset(
     {
         "TRANS",
-        *("FOLMAS", "FOLEN", "RE", "REGSS"),
+        *("RE", "REGSS"),
     }
 )
 """Settings that switch on what this unit does not do yet: their defaults are accepted, anything else is refused rather

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from emulator.controller.wires.wiring import JOYSTICK_CONTACTS
 from protocol.reply import word_bits
-from protocol.status import ExtendedAxisStatus, OtherInputs, SystemStatus
+from protocol.status import AxisStatus, ExtendedAxisStatus, OtherInputs, SystemStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -96,6 +96,6 @@ def user_status(controller: Controller) -> str:
 
 
 def moving(controller: Controller) -> str:
-    """MOV: one bit an axis."""
+    """MOV: AS bit 1 of each axis."""
     axes = range(controller.settings.axes_in_use)
-    return "".join("1" if controller.engine.is_moving(axis_index) else "0" for axis_index in axes)
+    return "".join("1" if controller.engine.status(axis) & AxisStatus.MOVING.mask else "0" for axis in axes)

@@ -6,8 +6,9 @@ profiles it runs.
 
 from .control_law import Gains, UnitFactors
 from .encoder import AnalogSensor, EncoderTraits, EncoderWiring
-from .engine import DriveShutDown, Engine
+from .engine import Engine
 from .events import ENABLE_MASK, Event, Relation, Signal, Wire, wire_mask
+from .following_axes import MasterSource, NoMaster
 from .machinery import AxisHardware
 from .plants import ElasticCoupling, HydraulicCylinder, Plant, PlantError, TorqueDrive, VelocityDrive
 from .profile import (
@@ -23,6 +24,17 @@ from .profile import (
     profile_duration,
 )
 from .rates import RATES, RateTable, ServoRates, rates_for
+from .ratio_profile import (
+    DistanceMismatch,
+    RatioSegment,
+    RatioSegments,
+    master_travel,
+    plan_ratio_change,
+    plan_ratio_preset,
+    ratio_at,
+    slave_at,
+)
+from .readings import DriveShutDown
 from .travel import Travel
 
 __all__ = [
@@ -30,6 +42,7 @@ __all__ = [
     "RATES",
     "AnalogSensor",
     "AxisHardware",
+    "DistanceMismatch",
     "DriveShutDown",
     "ElasticCoupling",
     "EncoderTraits",
@@ -39,9 +52,13 @@ __all__ = [
     "Gains",
     "HydraulicCylinder",
     "InvalidSCurve",
+    "MasterSource",
+    "NoMaster",
     "Plant",
     "PlantError",
     "RateTable",
+    "RatioSegment",
+    "RatioSegments",
     "Relation",
     "Segment",
     "Segments",
@@ -55,10 +72,15 @@ __all__ = [
     "VelocityDrive",
     "Wire",
     "evaluate",
+    "master_travel",
     "plan_continuous",
     "plan_preset",
+    "plan_ratio_change",
+    "plan_ratio_preset",
     "plan_stop",
     "profile_duration",
     "rates_for",
+    "ratio_at",
+    "slave_at",
     "wire_mask",
 ]

@@ -25,6 +25,8 @@ from .events import (
     EVENT_STATUS,
     EVENT_WIRES,
 )
+from .following import follow_master, update_slaves
+from .following_status import FOLLOWING, check_following_watch
 from .kernels import Record, Records, kernel, seldom
 from .plants import step_plant
 from .scope import (
@@ -66,18 +68,25 @@ NEGATIVE_END = 1
 def hold_still(axis: Record) -> None:
     """No profile any more: the commanded position stays where it is."""
     axis["profile_active"] = 0
+    axis["shift_active"] = 0
     axis["commanded_velocity"] = 0.0
     axis["commanded_acceleration"] = 0.0
 
 
 @seldom
-def end_profile(axis: Record, now_ns: int) -> None:
-    """Arrive exactly at the profile's end and start waiting for the target zone."""
-    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(axis["profile_end_counts"] + 0.5)
+def end_move(axis: Record, now_ns: int) -> None:
+    """The commanded position has arrived: start waiting for the target zone."""
     hold_still(axis)
     axis["pending_events"] |= EVENT_MOVE_ENDED
     axis["settling"] = axis["target_zone_enable"]
     axis["settle_start_ns"] = now_ns
+
+
+@seldom
+def end_profile(axis: Record, now_ns: int) -> None:
+    """Arrive exactly at the profile's end."""
+    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(axis["profile_end_counts"] + 0.5)
+    end_move(axis, now_ns)
 
 
 @seldom
@@ -167,7 +176,10 @@ def move_plant(axis: Record, before: Record, after: Record) -> None:
 def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, trajectory_due: bool) -> None:
     """One servo sample of one axis, its plant having moved."""
     if trajectory_due and axis["profile_active"] != 0:
-        follow_profile(axis, segments, now_ns)
+        if axis["profile_active"] != FOLLOWING:
+            follow_profile(axis, segments, now_ns)
+        elif follow_master(unit, axis, segments, now_ns):
+            end_move(axis, now_ns)
     take_feedback(axis)
     if axis["switches_fitted"] != 0:
         operate_switches(unit, axis)
@@ -286,6 +298,8 @@ def collect_events(axis: Record) -> int:
         if watched != axis["watched_status"]:
             axis["watched_status"] = watched
             axis["pending_events"] |= EVENT_STATUS
+    if axis["following_watch_mask"] != 0:
+        check_following_watch(axis)
     fired = axis["pending_events"]
     axis["events"] |= fired
     axis["pending_events"] = 0
@@ -303,8 +317,10 @@ def check_wires(unit: Record) -> int:
 
 
 @seldom
-def system_update(unit: Record, axes: Records, watches: Records, now_ns: int) -> int:
+def system_update(unit: Record, axes: Records, ratios: Records, watches: Records, now_ns: int) -> int:
     """Everything that happens once per system update; returns the events of all axes."""
+    if unit["slaves"] != 0:
+        update_slaves(unit, axes, ratios)
     for axis_index in range(unit["axis_count"]):
         update_axis(unit, axes[axis_index], now_ns)
     if unit["armed_watches"] != 0:
@@ -336,7 +352,9 @@ def system_is_due(unit: Record) -> bool:
 
 
 @kernel
-def servo_sample(unit: Record, axes: Records, plants: Records, segments: Records, watches: Records) -> int:
+def servo_sample(
+    unit: Record, axes: Records, plants: Records, segments: Records, ratios: Records, watches: Records
+) -> int:
     """One servo sample of all axes; returns the events of a system update that fell on it, else 0."""
     now_ns = unit["next_sample_ns"]
     trajectory_due = trajectory_is_due(unit)
@@ -346,17 +364,24 @@ def servo_sample(unit: Record, axes: Records, plants: Records, segments: Records
         sample_axis(unit, axis, segments, now_ns, trajectory_due)
     unit["next_sample_ns"] = now_ns + unit["servo_ns"]
     if trajectory_due and system_is_due(unit):
-        return system_update(unit, axes, watches, now_ns)
+        return system_update(unit, axes, ratios, watches, now_ns)
     return 0
 
 
 @kernel
 def run(
-    unit: Record, axes: Records, plants: Records, segments: Records, watches: Records, fired: int, until_ns: int
+    unit: Record,
+    axes: Records,
+    plants: Records,
+    segments: Records,
+    ratios: Records,
+    watches: Records,
+    fired: int,
+    until_ns: int,
 ) -> int:
     """Run samples up to `until_ns` or up to events, unless some have `fired` already; returns the events."""
     while fired == 0 and unit["next_sample_ns"] <= until_ns:
-        fired = servo_sample(unit, axes, plants, segments, watches)
+        fired = servo_sample(unit, axes, plants, segments, ratios, watches)
     return fired
 
 
@@ -366,6 +391,7 @@ def run_recorded(
     axes: Records,
     plants: Records,
     segments: Records,
+    ratios: Records,
     watches: Records,
     scope: ScopeArrays,
     until_ns: int,
@@ -382,7 +408,7 @@ def run_recorded(
     wants_status = record["wants_status"] != 0
     fired = 0
     while fired == 0 and written != last and unit["next_sample_ns"] <= until_ns:
-        fired = servo_sample(unit, axes, plants, segments, watches)
+        fired = servo_sample(unit, axes, plants, segments, ratios, watches)
         to_row -= 1
         if to_row != 0:
             continue
@@ -400,7 +426,7 @@ def run_recorded(
     if not waiting:
         record["rows_to_go"] = last - written
         record["state"] = SCOPE_OFF if written == last else SCOPE_TRIGGERED
-    return run(unit, axes, plants, segments, watches, fired, until_ns)
+    return run(unit, axes, plants, segments, ratios, watches, fired, until_ns)
 
 
 @seldom
@@ -409,6 +435,7 @@ def advance(
     axes: Records,
     plants: Records,
     segments: Records,
+    ratios: Records,
     watches: Records,
     scope: ScopeArrays,
     until_ns: int,
@@ -418,9 +445,9 @@ def advance(
     Also brings the axes' `status` up to date, which is all it does when no sample is due.
     """
     if scope.records[0]["state"] == SCOPE_OFF:
-        fired = run(unit, axes, plants, segments, watches, 0, until_ns)
+        fired = run(unit, axes, plants, segments, ratios, watches, 0, until_ns)
     else:
-        fired = run_recorded(unit, axes, plants, segments, watches, scope, until_ns)
+        fired = run_recorded(unit, axes, plants, segments, ratios, watches, scope, until_ns)
     if fired != 0:
         unit["time_ns"] = unit["next_sample_ns"] - unit["servo_ns"]
     elif until_ns > unit["time_ns"]:

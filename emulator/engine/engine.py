@@ -16,13 +16,14 @@ from .control_law import Gains, UnitFactors, gain_fields
 from .converter import DEFAULT_DAC_BITS, dac_fields
 from .encoder import ENCODER_SOURCE
 from .events import EVENT_ROWS_LOW, MAX_AXES, Event, Relation, Signal
-from .feedback_inputs import FeedbackInputs
+from .following_axes import MasterSource
 from .layout import UNIT, word_of
 from .machine_code import Calls, Kernel, OnBuild, load_kernel
 from .machinery import AxisHardware
 from .memory import Memory, write_fields
 from .profile import Segments, State, evaluate, profile_duration
 from .rates import NS_PER_S, ServoRates
+from .ratio_streaming import RatioStreams
 from .readings import (
     ACTIVE,
     ANI_OFFSET,
@@ -33,6 +34,7 @@ from .readings import (
     FEEDBACK,
     NS_PER_MS,
     OFFSET,
+    DriveShutDown,
     axis_word,
 )
 from .status import CLEARED_BY_ENABLE
@@ -54,6 +56,9 @@ DEFAULT_POSITION_ERROR_LIMIT = 4000
 """SMPER at power-up, counts. Assumed, medium confidence."""
 
 
+TIMED = 1
+"""Code of `profile_active` for a profile in time."""
+
 _TIME, _NEXT_SAMPLE, _SERVO = (word_of(UNIT, name) for name in ("time_ns", "next_sample_ns", "servo_ns"))
 _TO_TRAJECTORY, _TO_SYSTEM = (word_of(UNIT, name) for name in ("samples_to_trajectory", "trajectories_to_system"))
 _FIRED = word_of(UNIT, "fired_watches")
@@ -72,11 +77,7 @@ def _event(mask: int) -> Event:
         return _EVENT_OF.setdefault(mask, Event(mask))
 
 
-class DriveShutDown(RuntimeError):
-    """A profile was started on an axis whose drive is off."""
-
-
-class Engine(FeedbackInputs):
+class Engine(RatioStreams):
     """The servo of one unit. Drives are off, wires open and gains those of power-up until set."""
 
     def __init__(
@@ -109,6 +110,8 @@ class Engine(FeedbackInputs):
             UNIT,
             {"axis_count": len(axes), "drive_off_to_zero": drive_off_to_zero, **dac_fields(dac_bits)},
         )
+        self._init_following(len(axes))
+        self._init_ratio_streams(len(axes))
         for axis_index, hardware in enumerate(axes):
             self._power_up(axis_index, hardware)
         self.set_rates(rates)
@@ -126,10 +129,11 @@ class Engine(FeedbackInputs):
         self.set_target_zone(axis_index, distance_counts=50, velocity_counts_s=hardware.counts_per_rev, timeout_ms=1000)
 
     def power_up(self) -> None:
-        """Switch the electronics off and on: drives off, counters at 0, latched status gone; shafts, wires and time go
-        on. Gains, limits and zones keep their values until they are set again."""
+        """Switch the electronics off and on: drives off, counters at 0, latched status and masters gone; shafts, wires
+        and time go on. Gains, limits and zones keep their values until they are set again."""
         for axis_index, ints in enumerate(self._ints):
             self.disable(axis_index)
+            self.set_master(axis_index, source=MasterSource.NONE)
             ints[_LATCHED] = ints[_EXTRA] = ints[_EVENTS] = 0
             ints[_SOURCE] = ENCODER_SOURCE
             ints[COMMANDED] = ints[OFFSET] = ints[ENCODER_OFFSET] = ints[FEEDBACK] = ints[ENCODER]
@@ -197,6 +201,8 @@ class Engine(FeedbackInputs):
         write_fields(self._memory.unit, UNIT, fields)
         self.scope.note_rates()
         self._set_steps()
+        for axis_index in range(len(self._ints)):
+            self._retime_following(axis_index)
 
     # Faults
 
@@ -238,10 +244,11 @@ class Engine(FeedbackInputs):
         offset = self._ints[axis_index][OFFSET]
         raw = tuple(segment.moved(offset) for segment in segments)
         self._streams[axis_index] = None
+        self._leave_following(axis_index)
         duration_s = profile_duration(raw)
         end = evaluate(raw, duration_s).position if duration_s < math.inf else 0.0
         self._load(axis_index, Portion(self.next_trajectory_ns, 0, 0.0, raw, duration_s, end, NO_REFILL))
-        self._write(axis_index, profile_active=1, settling=0)
+        self._write(axis_index, profile_active=TIMED, settling=0)
 
     def _load(self, axis_index: int, portion: Portion) -> None:
         """Put rows into force at the next trajectory update."""
@@ -274,9 +281,10 @@ class Engine(FeedbackInputs):
             raise DriveShutDown(f"the drive of axis {axis_index + 1} is off")
         state = self._raw_state(axis_index)
         stream = Stream(pieces, margin_s=STREAM_MARGIN_UPDATES * self._rates.system_ns / NS_PER_S, on_mark=on_mark)
+        self._leave_following(axis_index)
         self._load(axis_index, stream.begin(at_ns=self.next_trajectory_ns, position_counts=state.position))
         self._streams[axis_index] = stream
-        self._write(axis_index, profile_active=1, settling=0)
+        self._write(axis_index, profile_active=TIMED, settling=0)
         return stream
 
     def resume_stream(self, axis_index: int) -> None:
@@ -289,7 +297,7 @@ class Engine(FeedbackInputs):
 
     def streams(self, axis_index: int, stream: Stream) -> bool:
         """Whether this streamed profile moves the axis: it has neither ended nor been replaced."""
-        return self._streams[axis_index] is stream and bool(self._ints[axis_index][ACTIVE])
+        return self._streams[axis_index] is stream and self._ints[axis_index][ACTIVE] == TIMED
 
     def _feed_streams(self) -> None:
         """Hand more rows to the axes that have asked."""
@@ -297,11 +305,13 @@ class Engine(FeedbackInputs):
             events = self._ints[axis_index][_EVENTS]
             if events & EVENT_ROWS_LOW:
                 self._ints[axis_index][_EVENTS] = events & ~EVENT_ROWS_LOW
-                if stream is not None and self._ints[axis_index][ACTIVE]:
+                self._feed_ratios(axis_index)
+                if stream is not None and self.streams(axis_index, stream):
                     self._load(axis_index, stream.go_on(self._ints[axis_index][_SEGMENT_INDEX]))
 
     def cancel_profile(self, axis_index: int) -> None:
         """Give up the profile at once: the commanded position stays where it is."""
+        self._leave_following(axis_index)
         self._write(axis_index, profile_active=0, commanded_velocity=0.0, commanded_acceleration=0.0, settling=0)
 
     def profile_state(self, axis_index: int) -> State:
@@ -314,12 +324,17 @@ class Engine(FeedbackInputs):
         ints = self._ints[axis_index]
         if not ints[ACTIVE]:
             return State(float(ints[COMMANDED]), 0.0, 0.0)
+        if self.is_following(axis_index):
+            position, velocity, acceleration = self._slave_state(axis_index)
+            return State(position + ints[OFFSET], velocity, acceleration)
         elapsed_s = (self.next_trajectory_ns - ints[_START]) / NS_PER_S - self._leads_s[axis_index]
         position, velocity, acceleration = evaluate(self._profiles[axis_index], elapsed_s)
         return State(position + ints[_ORIGIN], velocity, acceleration)
 
     def profile_target(self, axis_index: int) -> float | None:
         """Reported counts at which the running profile ends; None for one that goes on for ever."""
+        if self.is_following(axis_index):
+            return self._slave_end(axis_index)
         segments = self._profiles[axis_index]
         duration_s = profile_duration(segments)
         if duration_s == float("inf"):
@@ -457,6 +472,7 @@ class Engine(FeedbackInputs):
         self._memory.units["armed_watches"] = self._memory.watches["armed"].sum()
         self._memory.units["fired_watches"] = 0
         self._memory.axes["watch_mask"] = 0
+        self._memory.axes["following_watch_mask"] = 0
 
     def disarm_watch(self, slot: int) -> None:
         """Disarm one value watch."""

@@ -73,6 +73,18 @@ class Signal(IntEnum):
     """Voltage at the ANI feedback input as converted, V."""
     PANI = 8
     """Position of the ANI feedback input, counts."""
+    PMAS = 9
+    """Position in the master cycle, counts."""
+    NMCY = 10
+    """Number of the master cycle."""
+    VMAS = 11
+    """Master velocity, counts/s."""
+    PSLV = 12
+    """Commanded position of the slave, counts."""
+    PSHF = 13
+    """Net shift, counts."""
+    MASTER = 14
+    """Master travel since it was assigned, whatever its cycles, counts."""
 
 
 class Relation(IntEnum):

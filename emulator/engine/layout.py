@@ -43,6 +43,73 @@ UNIT_FIELDS: Fields = (
     ("outputs", INT, "programmable outputs that are on, bit 0 = output 1, as the controller last set them"),
     ("armed_watches", INT, "value watches still armed"),
     ("fired_watches", INT, "value watches that have fired, bit = slot, since Python last asked"),
+    ("slaves", INT, "axes that have a master"),
+    ("ratio_capacity", INT, "rows of the table of ratios kept for each axis"),
+)
+
+_FOLLOWING_FIELDS: Fields = (
+    # the master, at system updates
+    ("master_source", INT, "0 no master, 1 encoder, 2 ANI input, 4 commanded position (source digit of FOLMAS)"),
+    ("master_index", INT, "axis the master belongs to"),
+    ("master_sign", INT, "+1 or -1: sign of FOLMAS"),
+    ("master_raw", INT, "what the source showed at the last system update, counts"),
+    ("master_counts", INT, "master travel since it was assigned, after the sign, counts"),
+    ("master_moved", INT, "master travel in the last system update period, counts"),
+    ("master_decay", FLOAT, "FFILT: share of the filter's lag that is left after a system update; 0 = no filter"),
+    ("master_lag", FLOAT, "master position less filtered master position, counts"),
+    ("previous_master_lag", FLOAT, "the same one system update earlier, counts"),
+    ("prediction", INT, "FPPEN: 1 = the master position is extrapolated"),
+    ("master_used", INT, "master position filtered and predicted, whole counts"),
+    ("master_used_part", FLOAT, "its fraction of a count"),
+    ("master_velocity", FLOAT, "change of the filtered master position over two system updates, counts/s"),
+    ("cycle_length", INT, "FMCLEN, counts; 0 = endless"),
+    ("cycle_counts", INT, "position in the master cycle (PMAS), counts"),
+    ("cycle_number", INT, "master cycles finished since the last restart (NMCY)"),
+    # the ratio profile in force
+    ("first_ratio", INT, "row of the profile's first piece in the table of ratios"),
+    ("ratio_count", INT, "pieces in the profile"),
+    ("ratio_index", INT, "piece in force, 0 = first"),
+    ("ratio_master", INT, "master position at which the profile begins, whole counts"),
+    ("ratio_master_part", FLOAT, "its fraction of a count"),
+    ("ratio_base", INT, "raw slave position at which the profile begins, whole counts"),
+    ("ratio_direction", INT, "+1 or -1: master direction in which the profile runs"),
+    ("ratio_mirrored", INT, "1 = it still runs in whichever direction the master goes from its beginning"),
+    ("ratio_waiting", INT, "1 = a preset move whose beginning still goes with a master that backs up"),
+    ("ratio_held", INT, "1 = a move whose beginning is a given master position"),
+    ("ratio_told_index", INT, "row of the ratio profile in which the kernel tells that it is there"),
+    ("ratio_phase", INT, "0 none, 1 held, 2 waits for the master, 3 ratio changes, 4 constant ratio, 5 at its end"),
+    ("ratio_updates_left", INT, "of a profile at its end: system updates until the slave is there; 0 = not at its end"),
+    ("ratio_now", FLOAT, "ratio at the last system update, slave counts per master count"),
+    ("sum_piece", INT, "piece the exact sum belongs to"),
+    ("sum_master", INT, "whole master counts from the profile's beginning that the exact sum has taken in"),
+    ("sum_counts", INT, "exact slave travel after them, whole counts"),
+    ("sum_part", INT, "its fraction of a count, in units of the piece's denominator"),
+    # the slave
+    ("slave_next", INT, "raw slave position computed at the last system update, whole counts"),
+    ("slave_next_part", FLOAT, "its fraction of a count"),
+    ("slave_target", INT, "raw slave position being gone to, to be reached at the next system update, whole counts"),
+    ("slave_target_part", FLOAT, "its fraction of a count"),
+    ("slave_from", INT, "raw slave position reached at the last system update, whole counts"),
+    ("slave_from_part", FLOAT, "its fraction of a count"),
+    ("slave_step", FLOAT, "way between the two in a trajectory update, counts"),
+    ("slave_velocity", FLOAT, "velocity of the ratio move, counts/s"),
+    ("slave_acceleration", FLOAT, "change of that velocity over the last system update, counts/s2"),
+    # the phase shift
+    ("shift_active", INT, "1 = a shift is under way"),
+    ("shift_continuous", INT, "1 = it is, or was, an FSHFC"),
+    ("shift_start_ns", INT, "time of the trajectory update at which the shift begins, ns"),
+    ("shift_end_s", FLOAT, "duration of the shift, s (infinite while it goes on at constant velocity)"),
+    ("shift_end_counts", FLOAT, "net shift at its end, counts"),
+    ("first_shift_segment", INT, "row of the shift's first segment in the segment table"),
+    ("shift_count", INT, "segments in the shift"),
+    ("shift_index", INT, "segment in force, 0 = first"),
+    ("shift_counts", FLOAT, "net shift, counts"),
+    ("shift_velocity", FLOAT, "velocity of the shift, counts/s"),
+    ("shift_acceleration", FLOAT, "acceleration of the shift, counts/s2"),
+    # status
+    ("following_status", INT, "FS word as of the last return of the kernel, bit n = 1 << (n - 1)"),
+    ("following_watch_mask", INT, "FS bits being watched"),
+    ("watched_following", INT, "the watched bits when armed or last reported"),
 )
 
 AXIS_FIELDS: Fields = (
@@ -54,7 +121,7 @@ AXIS_FIELDS: Fields = (
     ("encoder_wiring", INT, "+1 as it should be, -1 channels exchanged, 0 nothing arrives"),
     ("output_sign", INT, "+1 or -1: CMDDIR"),
     # trajectory
-    ("profile_active", INT, "1 = a profile is running, or waits for its first trajectory update"),
+    ("profile_active", INT, "1 = a profile is running, or waits for its first trajectory update; 2 = Following"),
     ("profile_start_ns", INT, "time of the trajectory update at which the profile begins, ns"),
     ("profile_end_s", FLOAT, "duration of the profile, s (infinite while moving on at constant velocity)"),
     ("profile_end_counts", FLOAT, "commanded position at the end of the profile, counts from profile_origin_counts"),
@@ -163,6 +230,7 @@ AXIS_FIELDS: Fields = (
     ("load_velocity", FLOAT, "velocity of the load's inertia on a springy shaft, rev/s"),
     ("spool", FLOAT, "position of a cylinder's valve spool, V"),
     ("spool_rate", FLOAT, "its velocity over the valve's natural frequency, V"),
+    *_FOLLOWING_FIELDS,
 )
 
 
@@ -242,6 +310,21 @@ SEGMENT_FIELDS: Fields = (
     ("curvature", FLOAT, "change of that angle, rad per count of path"),
 )
 
+RATIO_FIELDS: Fields = (
+    ("kind", INT, "0 ratio on its way, 1 hold before the beginning, 2 endless, 3 end"),
+    ("master", INT, "first whole master count of the piece, from the profile's beginning"),
+    ("master_part", FLOAT, "beginning of the piece less that count, above -1 to 0"),
+    ("slave", INT, "slave travel at that count (of a changing ratio: at its beginning), whole counts"),
+    ("slave_part", INT, "its fraction of a count, in units of 1 / denominator"),
+    ("base_part", INT, "the fraction of a count in the slave's position at the profile's beginning, the same units"),
+    ("denominator", INT, "parts in a count"),
+    ("most_master", INT, "master counts that can be added up at once"),
+    ("ratio_counts", INT, "constant ratio: whole slave counts per master count, rounded down"),
+    ("ratio_part", INT, "constant ratio: the rest, in units of 1 / denominator"),
+    ("ratio", FLOAT, "ratio at the beginning of the piece, slave counts per master count"),
+    ("slope", FLOAT, "change of the ratio per master count"),
+)
+
 WATCH_FIELDS: Fields = (
     ("armed", INT, "1 = armed"),
     ("axis_index", INT, "axis whose signal is compared"),
@@ -284,6 +367,7 @@ UNIT = _dtype(UNIT_FIELDS)
 AXIS = _dtype(AXIS_FIELDS)
 PLANT = _dtype(PLANT_FIELDS)
 SEGMENT = _dtype(SEGMENT_FIELDS)
+RATIO = _dtype(RATIO_FIELDS)
 WATCH = _dtype(WATCH_FIELDS)
 SCOPE = _dtype(SCOPE_FIELDS)
 

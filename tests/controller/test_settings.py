@@ -390,7 +390,7 @@ class TestOneAxis:
 
 
 LATER = [
-    *("FSHFC1", "FSHFD100", "FGADV1", "FMCNEW1", "GOBUF1", "TPCA"),
+    "TPCA",
 ]
 """Other issues' work: Following, compiled motion, registration."""
 

@@ -6,16 +6,14 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
 from emulator.controller.compiled.marks import Held, Marks, Over
-from emulator.controller.motion.go import may_start
+from emulator.controller.motion.go import allow_motion
 from emulator.controller.wires.outputs import switch_outputs
+from protocol.errors import AXES_NOT_READY, CommandError
 
 if TYPE_CHECKING:
     from emulator.controller.compiled.holds import SegmentHold
     from emulator.controller.controller import Controller
-
-OUTPUTS_AHEAD = (3, 4)
-"""Outputs switch at the system update before which their segment begins less than this share of a period later: from
-1.5 ms before to 0.5 ms after it at a period of 2 ms (6000 PG p.160; the share is inferred)."""
+    from emulator.controller.settings import Settings
 
 
 class Motion(Protocol):
@@ -43,9 +41,19 @@ class AxisProfile(Protocol):
         """Which way its first motion goes: 1, -1, or 0 for none."""
         ...
 
-    def start(self, controller: Controller, on_mark: Callable[[int, object], None]) -> Motion:
-        """Start it; ``on_mark`` gets the time and the marks of pieces ahead of their beginning."""
+    @property
+    def follows(self) -> bool:
+        """It is a slave's."""
         ...
+
+    def start(self, controller: Controller, act_at: Callable[[int, object], None]) -> Motion:
+        """Start it; ``act_at`` is told of every mark and the time from which it is to be acted on."""
+        ...
+
+
+def is_slave(settings: Settings, axis_index: int) -> bool:
+    """Whether an axis moves over master travel and not in time."""
+    return settings.flag("FOLEN", axis_index)
 
 
 class CompiledProfile:
@@ -57,8 +65,17 @@ class CompiledProfile:
         self.axes = tuple(profile.axis_index for profile in profiles)
 
     def start(self, controller: Controller) -> ProfileRun:
-        """Start every axis that no limit holds back."""
-        free = [profile for profile in self._profiles if may_start(controller, profile.axis_index, profile.direction)]
+        """Start every axis that no limit holds back.
+
+        Raises:
+            CommandError: AXES NOT READY, a slave's profile without Following enabled or the other way round (assumed).
+        """
+        for profile in self._profiles:
+            if profile.follows != is_slave(controller.settings, profile.axis_index):
+                raise CommandError(AXES_NOT_READY)
+        free = [
+            profile for profile in self._profiles if allow_motion(controller, profile.axis_index, profile.direction)
+        ]
         return ProfileRun({profile.axis_index: AxisRun(controller, profile) for profile in free})
 
 
@@ -101,11 +118,7 @@ class AxisRun:
             self._waits_for.cancel(self._controller, self._axis_index)
             self._waits_for = None
 
-    def _note(self, begins_ns: int, mark: object) -> None:
-        due_ns = begins_ns
-        if isinstance(mark, Marks):
-            share, whole = OUTPUTS_AHEAD
-            due_ns += 1 - share * self._controller.engine.rates.system_ns // whole
+    def _note(self, due_ns: int, mark: object) -> None:
         at_ns = system_update_near(self._controller, due_ns)
         self._controller.alarms.at(at_ns, lambda: self._act_on(mark))
 

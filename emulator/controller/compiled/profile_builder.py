@@ -10,14 +10,22 @@ from emulator.controller.compiled.blending import CannotBlend
 from emulator.controller.compiled.holds import HOLDING_COMMANDS, holds_of
 from emulator.controller.compiled.kinds import Compilation, Kind, register
 from emulator.controller.compiled.loops import Unsteady
-from emulator.controller.compiled.profile import CompiledProfile
+from emulator.controller.compiled.profile import CompiledProfile, is_slave
 from emulator.controller.compiled.profile_axis import ProfileAxis
+from emulator.controller.compiled.ratio_axis import RatioAxis
 from emulator.controller.compiled.timed_axis import TimedAxis
 from emulator.controller.dispatch import Lines, handles
 from emulator.controller.motion.go import check_s_curve_of, named_axes
 from emulator.controller.wires.outputs import output_pattern
+from emulator.engine.ratio_profile import DistanceMismatch
 from protocol.command import Command
-from protocol.errors import INCORRECT_DATA, NOT_DEFINING_A_PATH, CommandError, invalid_conditions
+from protocol.errors import (
+    INCORRECT_DATA,
+    MASTER_SLAVE_DISTANCE_MISMATCH,
+    NOT_DEFINING_A_PATH,
+    CommandError,
+    invalid_conditions,
+)
 from protocol.fields import checked_number, place_values, range_of
 
 if TYPE_CHECKING:
@@ -71,7 +79,8 @@ class ProfileBuilder:
 
     def _axis(self, axis_index: int) -> ProfileAxis:
         if axis_index not in self._axes:
-            self._axes[axis_index] = TimedAxis(self._controller, axis_index)
+            kind = RatioAxis if is_slave(self._settings, axis_index) else TimedAxis
+            self._axes[axis_index] = kind(self._controller, axis_index)
         return self._axes[axis_index]
 
     def _named(self, command: Command) -> list[int]:
@@ -126,10 +135,12 @@ def refusals(axis_index: int) -> Iterator[None]:
     """What planning cannot do, in the unit's words.
 
     Raises:
-        CommandError: INVALID CONDITIONS FOR COMMAND-AXIS n.
+        CommandError: INVALID CONDITIONS FOR COMMAND-AXIS n, MASTER SLAVE DISTANCE MISMATCH.
     """
     try:
         yield
+    except DistanceMismatch:
+        raise CommandError(MASTER_SLAVE_DISTANCE_MISMATCH) from None
     except (CannotBlend, Unsteady):
         raise invalid_conditions(axis_index + 1) from None
 

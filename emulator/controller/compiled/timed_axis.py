@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from emulator.controller.controller import Controller
     from emulator.controller.settings import Settings
 
+OUTPUTS_AHEAD = (3, 4)
+"""Outputs switch at the system update before which their segment begins less than this share of a period later: from
+1.5 ms before to 0.5 ms after it at a period of 2 ms (6000 PG p.160; the share is inferred)."""
+
 
 @dataclass(frozen=True, slots=True)
 class TimedSegment:
@@ -107,16 +111,28 @@ class TimedProfile:
     direction: int
     planned: Sequence[Planned[StreamedSegment]]
     exit_velocity: float
+    follows: bool = False
 
     def pieces(self) -> Iterator[StreamedSegment]:
         """Every piece in turn, and the endless one it ends with if it does not end at rest."""
         running_on = (_endless(self.exit_velocity, Over()),) if self.exit_velocity else ()
         return chain(pieces_of(self.planned), running_on)
 
-    def start(self, controller: Controller, on_mark: Callable[[int, object], None]) -> TimedMotion:
+    def start(self, controller: Controller, act_at: Callable[[int, object], None]) -> TimedMotion:
         """Start it at the next trajectory update."""
-        stream = controller.engine.stream_profile(self.axis_index, self.pieces(), on_mark)
-        return TimedMotion(controller.engine, self.axis_index, stream)
+        engine = controller.engine
+
+        def on_mark(begins_ns: int, mark: object) -> None:
+            ahead_ns = outputs_ahead_ns(engine.rates.system_ns) if isinstance(mark, Marks) else 0
+            act_at(begins_ns - ahead_ns, mark)
+
+        return TimedMotion(engine, self.axis_index, engine.stream_profile(self.axis_index, self.pieces(), on_mark))
+
+
+def outputs_ahead_ns(system_ns: int) -> int:
+    """How long before their segment outputs may switch at most, at the first system update from then on."""
+    share, whole = OUTPUTS_AHEAD
+    return share * system_ns // whole - 1
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles, require_rest
 from emulator.controller.faults import CLEARED_BY_GO, clear_without_cause
+from emulator.controller.motion.following import moves
+from emulator.controller.motion.following.assignment import is_following
+from emulator.controller.motion.following.go_wait import motion_wait
 from emulator.controller.motion.limits import limit_in_the_way
-from emulator.controller.waits import MotionWait
+from emulator.controller.motion.targets import preset_target
 from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
 from protocol.command import Command
 from protocol.errors import (
@@ -47,13 +50,25 @@ def go(controller: Controller, command: Command) -> Lines:
     """GO: start the loaded profile on the axes named, or on all whose drive is on."""
     axes = _axes_to_start(controller, command)
     for axis_index in axes:
-        check_s_curve(controller, axis_index)
+        check_move(controller, axis_index)
     controller.faults.clear(CLEARED_BY_GO)
     for axis_index in axes:
         start(controller, axis_index)
     if not controller.settings.flag("COMEXC") and axes:
-        controller.interpreter.wait_for(MotionWait(tuple(axes)))
+        controller.interpreter.wait_for(motion_wait(controller, axes))
     return None
+
+
+def check_move(controller: Controller, axis_index: int) -> None:
+    """Refuse a move that the settings of its axis do not make, in time (A, AD ...) or by its master (FOLRN ...).
+
+    Raises:
+        CommandError: INVALID CONDITIONS FOR S_CURVE ..., and what ``following.moves.check_go`` refuses.
+    """
+    if is_following(controller, axis_index):
+        moves.check_go(controller, axis_index)
+    else:
+        check_s_curve(controller, axis_index)
 
 
 def _axes_to_start(controller: Controller, command: Command) -> list[int]:
@@ -130,24 +145,33 @@ def check_s_curve_of(settings: Settings, axis_index: int, family: str = "") -> N
 
 def start(controller: Controller, axis_index: int) -> None:
     """Start one axis: nothing moves into an active limit, a target that cannot be reached stops the axis."""
-    engine = controller.engine
-    if controller.settings.flag("MC", axis_index):
-        direction = 1 if controller.settings.counts("D", axis_index) >= 0 else -1
-        if controller.settings.counts("V", axis_index) == 0:
-            direction = 0
-    else:
-        distance = preset_target(controller, axis_index) - engine.profile_state(axis_index).position
-        direction = (distance > 0) - (distance < 0)
-    if not may_start(controller, axis_index, direction):
+    following = is_following(controller, axis_index)
+    direction = (moves.direction if following else _direction)(controller, axis_index)
+    if not allow_motion(controller, axis_index, direction):
         return
-    if controller.settings.flag("MC", axis_index):
-        engine.start_profile(axis_index, _continuous(controller, axis_index, direction))
+    if following:
+        moves.start_move(controller, axis_index)
+    elif controller.settings.flag("MC", axis_index):
+        controller.engine.start_profile(axis_index, _continuous(controller, axis_index, direction))
     else:
         _start_preset(controller, axis_index)
 
 
-def may_start(controller: Controller, axis_index: int, direction: int) -> bool:
-    """Whether no limit is in the way; if so what a legal GO clears is cleared, if not the limit latches its bits."""
+def _direction(controller: Controller, axis_index: int) -> int:
+    """Which way a move in time would go: +1, -1, or 0 for no move."""
+    if not controller.settings.flag("MC", axis_index):
+        distance = preset_target(controller, axis_index) - controller.engine.profile_state(axis_index).position
+        return (distance > 0) - (distance < 0)
+    if controller.settings.counts("V", axis_index) == 0:
+        return 0
+    return 1 if controller.settings.counts("D", axis_index) >= 0 else -1
+
+
+def allow_motion(controller: Controller, axis_index: int, direction: int) -> bool:
+    """Whether no active limit lies in a direction: then what earlier moves have left in AS and ER is cleared.
+
+    Otherwise the limit is latched, AS 15 to 18 and ER 2 or 3.
+    """
     if held_by_limit(controller, axis_index, direction):
         return False
     forget_refusals(controller, axis_index)
@@ -170,17 +194,6 @@ def forget_refusals(controller: Controller, axis_index: int) -> None:
     clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
     if in_zone:
         clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
-
-
-def preset_target(controller: Controller, axis_index: int) -> int:
-    """Where a preset move ends, whole counts: D x SCLD truncated; relative to the commanded position with MA0.
-
-    A move that pre-empts another counts from where the axis is commanded to be at that moment (assumed).
-    """
-    counts = int(controller.settings.counts("D", axis_index).to_integral_value(ROUND_DOWN))
-    if controller.settings.flag("MA", axis_index):
-        return counts
-    return controller.engine.commanded_position(axis_index) + counts
 
 
 def _start_preset(controller: Controller, axis_index: int) -> None:

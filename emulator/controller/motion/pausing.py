@@ -44,9 +44,9 @@ class Pausing:
         stop_axes(controller, moving, "AD")
 
     def _resumable(self, axis_index: int) -> bool:
-        """Homing, jogging, the joystick and compiled profiles do not go on after a pause (assumed); paths do, as a
-        whole."""
-        if self._controller.paths.carries(axis_index):
+        """Homing, jogging, the joystick, Following and compiled profiles do not go on after a pause (assumed); paths
+        do, as a whole."""
+        if self._controller.paths.carries(axis_index) or self._controller.engine.is_following(axis_index):
             return False
         by_hand = any(self._controller.settings.flag(mode, axis_index) for mode in ("JOG", "JOY"))
         if self._controller.compiled.moves(axis_index):

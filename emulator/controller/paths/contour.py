@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from emulator.controller.compiled.profile import is_slave
 from emulator.controller.motion.go import forget_refusals, held_by_limit
 from emulator.controller.paths.geometry import Piece
 from emulator.controller.paths.motion import Course, axes_at, first_headings
@@ -41,7 +42,7 @@ class ContourPath:
         Raises:
             CommandError: AXES NOT READY for an axis that is a slave (FOLEN1): a path is travelled in time (assumed).
         """
-        if any(controller.settings.flag("FOLEN", axis_index) for axis_index in self.axes):
+        if any(is_slave(controller.settings, axis_index) for axis_index in self.axes):
             raise CommandError(AXES_NOT_READY)
         headings = first_headings(self.pieces, len(self.axes))
         held = [held_by_limit(controller, axis, heading) for axis, heading in zip(self.axes, headings, strict=True)]

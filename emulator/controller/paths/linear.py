@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from emulator.controller.compiled.profile import is_slave
 from emulator.controller.dispatch import Lines, handles
 from emulator.controller.faults import CLEARED_BY_GO
 from emulator.controller.motion.go import (
@@ -16,8 +17,8 @@ from emulator.controller.motion.go import (
     forget_refusals,
     held_by_limit,
     named_axes,
-    preset_target,
 )
+from emulator.controller.motion.targets import preset_target
 from emulator.controller.paths.geometry import Line
 from emulator.controller.paths.motion import Averages, Course, axes_at, first_headings
 from emulator.controller.paths.speed import Stretch
@@ -55,7 +56,7 @@ def check_linear(controller: Controller, axes: list[int]) -> None:
     """
     check_ready(controller, axes)
     for axis_index in axes:
-        if controller.settings.flag("MC", axis_index) or controller.settings.flag("FOLEN", axis_index):
+        if controller.settings.flag("MC", axis_index) or is_slave(controller.settings, axis_index):
             raise CommandError(f"{INVALID_CONDITIONS}-AXIS {axis_index + 1}")
         if controller.engine.is_moving(axis_index):
             raise CommandError(MOTION_IN_PROGRESS)

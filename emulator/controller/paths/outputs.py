@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from emulator.controller.compiled.profile import OUTPUTS_AHEAD, system_update_near
+from emulator.controller.compiled.profile import system_update_near
+from emulator.controller.compiled.timed_axis import outputs_ahead_ns
 from emulator.controller.wires.outputs import switch_outputs
 
 if TYPE_CHECKING:
@@ -44,9 +45,8 @@ class SwitchedOutputs:
                 self._switch_at(at_ns, piece)
 
     def _switch_at(self, begins_ns: int, piece: int) -> None:
-        share, whole = OUTPUTS_AHEAD
-        ahead_ns = share * self._controller.engine.rates.system_ns // whole
-        at_ns, plan = system_update_near(self._controller, begins_ns - ahead_ns + 1), self._plan
+        ahead_ns = outputs_ahead_ns(self._controller.engine.rates.system_ns)
+        at_ns, plan = system_update_near(self._controller, begins_ns - ahead_ns), self._plan
         if at_ns <= self._controller.now_ns:
             self._switch(piece, plan)
         else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.controller.session import S, TRAJECTORY_NS, Session, both_on
+from tests.controller.session import TRAJECTORY_NS, S, Session, both_on
 
 COUNTS = 4000
 """Counts in a revolution: the unit of V and A unscaled."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.controller.compiled.rig import COUNTS, WITHIN_S, compiled, refusal, run_time
+from tests.controller.compiled.rig import COUNTS, compiled, refusal, run_time
 from tests.controller.session import ONE_UPDATE_EACH_NS, S
 
 SETTLES_WITHIN = ONE_UPDATE_EACH_NS / S

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.controller.compiled.rig import COUNTS, WITHIN_S, compiled, run_time, unit_with
+from tests.controller.compiled.rig import COUNTS, compiled, run_time, unit_with
 from tests.controller.session import MS, ONE_UPDATE_EACH_NS, S
 
 SETTLES_WITHIN = ONE_UPDATE_EACH_NS / S

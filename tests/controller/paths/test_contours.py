@@ -544,6 +544,7 @@ def test_paths_need_two_axes() -> None:
     [
         (("DRIVE10",), "AXES NOT READY"),
         (("COMEXC1", "MC1", "GO1"), "AXES NOT READY"),
+        (("FOLMAS,+14", "FOLEN01"), "AXES NOT READY"),
         (("DRIVE00", "SFB,0", "DRIVE11"), "NOT ALLOWED IF SFB0"),
     ],
 )
