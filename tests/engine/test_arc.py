@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 
 from emulator.engine import Engine, Segment, State, VelocityDrive, evaluate
 from emulator.engine.arc import SINE, cosine
+from emulator.engine.machine_code import MODE_VARIABLE
+from tests.engine.conftest import build_engine
 
 MakeEngine = Callable[..., Engine]
 
@@ -91,3 +93,17 @@ def test_velocity_and_acceleration_are_the_slopes_of_position_and_velocity(
     assert (after.velocity - before.velocity) / (2 * h) == pytest.approx(
         at.acceleration, abs=1e-6 * scale * (1 + turn) + 1e-2, rel=1e-3
     )
+
+
+def test_interpreted_and_compiled_agree_to_the_last_bit(monkeypatch: pytest.MonkeyPatch) -> None:
+    def played() -> bytes:
+        engine = build_engine(VelocityDrive(), VelocityDrive())
+        for axis_index, share in enumerate(circle(-1)):
+            engine.set_position(axis_index, round(share[0].centre + share[0].radius * math.cos(share[0].phase)))
+            engine.start_profile(axis_index, share)
+        engine.run(engine.time_ns + 150_000_000)
+        return engine.snapshot()
+
+    compiled = played()
+    monkeypatch.setenv(MODE_VARIABLE, "interpreted")
+    assert played() == compiled
