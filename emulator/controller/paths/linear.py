@@ -6,7 +6,7 @@ axis whose distance is D of a line of length L moves at D / L of the path's velo
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from emulator.controller.compiled.profile import is_slave
 from emulator.controller.dispatch import Lines, handles
@@ -43,7 +43,9 @@ def go_linear(controller: Controller, command: Command) -> Lines:
     axes = list(range(controller.settings.axes_in_use)) if named is None else named
     check_linear(controller, axes)
     controller.faults.clear(CLEARED_BY_GO)
-    if axes and start_linear(controller, axes) and not controller.settings.flag("COMEXC"):
+    if axes:
+        start_linear(controller, axes, line_rates(controller))
+    if axes and not controller.settings.flag("COMEXC"):
         controller.interpreter.wait_for(MotionWait(tuple(axes)))
     return None
 
@@ -65,22 +67,33 @@ def check_linear(controller: Controller, axes: list[int]) -> None:
         raise CommandError(PATH_VELOCITY_ZERO)
 
 
-def start_linear(controller: Controller, axes: list[int]) -> bool:
-    """Start a linear move that has been checked; False if a limit lies in the way of an axis, or there is nothing to
-    go."""
+class LineRates(NamedTuple):
+    """PV, PA, PAD and their averages, counts/s and counts/s2."""
+
+    velocity: float
+    acceleration: float
+    deceleration: float
+    averages: Averages
+
+
+def line_rates(controller: Controller) -> LineRates:
+    """The path values in force, which ``check_linear`` has found possible."""
+    velocity, up, down, average_up, average_down = (
+        float(controller.settings.counts(name)) for name in ("PV", "PA", "PAD", "PAA", "PADA")
+    )
+    return LineRates(velocity, up, down, Averages(average_up, average_down))
+
+
+def start_linear(controller: Controller, axes: list[int], rates: LineRates) -> None:
+    """Start a linear move that has been checked, from where the axes stand to where D says; nothing moves if a limit
+    lies in the way of one, or there is nothing to go."""
     line = Line(axes_at(controller, axes), tuple(preset_target(controller, axis_index) for axis_index in axes))
     headings = dict(zip(axes, first_headings([line], len(axes)), strict=True))
     held = [held_by_limit(controller, axis_index, heading) for axis_index, heading in headings.items()]
     if any(held):
-        return False
+        return
     for axis_index in axes:
         forget_refusals(controller, axis_index)
     if line.length:
-        controller.paths.start(_course(controller, tuple(axes), line))
-    return line.length > 0.0
-
-
-def _course(controller: Controller, axes: tuple[int, ...], line: Line) -> Course:
-    counts = controller.settings.counts
-    stretch = Stretch(line.length, float(counts("PV")), float(counts("PA")), float(counts("PAD")))
-    return Course(axes, (line,), (stretch,), Averages(float(counts("PAA")), float(counts("PADA"))))
+        stretch = Stretch(line.length, rates.velocity, rates.acceleration, rates.deceleration)
+        controller.paths.start(Course(tuple(axes), (line,), (stretch,), rates.averages))

@@ -8,7 +8,7 @@ kill at the lowest LHAD of the axes, soft limits at the lowest LSAD (assumed; a 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 from emulator.controller.paths.geometry import Piece
@@ -144,12 +144,23 @@ class Paths:
         self._begin(PathMotion(course, 0, _speeds(course, Place(0, State(0.0, 0.0, 0.0))), self._next_ns))
 
     def resume(self, motion: PathMotion) -> None:
-        """Go on from where a path has come to rest; nothing if an axis of it has been shut down meanwhile (assumed)."""
+        """Go on from where a path has come to rest; nothing if an axis of it has been shut down or has left that place
+        meanwhile (assumed)."""
         course = motion.course
         place = motion.place(self._next_ns)
-        if motion.lost or _at_the_end(course, place):
+        if motion.lost or _at_the_end(course, place) or not self._is_at(course, place):
             return
         self._begin(PathMotion(course, place.piece, _speeds(course, place), self._next_ns))
+
+    def _is_at(self, course: Course, place: Place) -> bool:
+        """Whether all axes stand at a place of a path with their drives on."""
+        engine, piece = self._controller.engine, course.pieces[place.piece]
+        return all(
+            engine.is_enabled(axis_index)
+            and not engine.is_moving(axis_index)
+            and abs(engine.commanded_position(axis_index) - piece.coordinate(axis, place.along.position)) <= 1.0
+            for axis, axis_index in enumerate(course.axes)
+        )
 
     @property
     def _next_ns(self) -> int:
@@ -174,7 +185,8 @@ class Paths:
         deceleration, average = self._deceleration(motion, ramp)
         rows = _brake_rows(motion.course, place, deceleration, average)
         if rows is not None:
-            self._begin(replace(motion, first=place.piece, rows=rows, start_ns=self._next_ns))
+            motion.first, motion.rows, motion.start_ns = place.piece, rows, self._next_ns
+            self._begin(motion)
 
     def _deceleration(self, motion: PathMotion, ramp: str) -> tuple[float, float | None]:
         """Deceleration along the path and, for a stop of a linear move, its average; one outside the S-curve rule is

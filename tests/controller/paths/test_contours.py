@@ -441,8 +441,10 @@ def test_a_pause_takes_the_path_up_again() -> None:
     session.advance(1.0)
     assert not moving(session)
     session.ok("!OUT0")
+    held = positions(session)
     session.set_wire("input.1", closed=False)
     session.advance(0.01)
+    assert math.dist(positions(session), held) < 50, "from where it stood"
     while moving(session):
         update(session)
         x, y = positions(session)

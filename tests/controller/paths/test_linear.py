@@ -339,11 +339,26 @@ def test_a_pause_takes_the_line_up_again() -> None:
     held = positions(session)
     assert held[0] < 60000
     session.set_wire("input.1", closed=False)
-    session.advance(0.1)
+    session.advance(0.02)
     assert session.signal("axis1.moving") and session.signal("axis2.moving")
+    assert math.dist(positions(session), held) < 100, "from where it stood"
     rows = track(session)
     assert positions(session) == (120000, 160000)
     assert all(off_line(here, (0, 0), (3, 4)) <= 1.0 for _, *here in rows)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("meanwhile", ["!GO1", "!DRIVE10"])
+def test_a_line_is_not_taken_up_from_elsewhere(meanwhile: str) -> None:
+    session = liner("COMEXC1", "COMEXR1", "INFNC1-E", "INFEN1", "PV5", "PA50", "D120000,160000", "GOL")
+    session.advance(1.0)
+    session.set_wire("input.1", closed=True)
+    session.advance(1.0)
+    session.ok("!D100,100", meanwhile)
+    session.advance(1.0)
+    held = positions(session)
+    session.set_wire("input.1", closed=False)
+    session.advance(0.5)
+    assert positions(session) == held
 
 
 def test_reset_forgets_a_line_under_way() -> None:
