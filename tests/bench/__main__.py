@@ -34,6 +34,7 @@ GROUPS = {
     "sweep": "sweep",
     "testing": "testing",
     "client": "client_overhead",
+    "compiled": "compiling",
 }
 """What can be asked for with --only, and the module whose `measure(effort)` does it."""
 

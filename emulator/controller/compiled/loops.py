@@ -33,8 +33,8 @@ class Planner(Protocol[Move_contra, Piece, Speed]):
         """The pieces of a segment and the speed at its end."""
         ...
 
-    def travel(self, piece: Piece) -> Fraction:
-        """Counts a piece moves the axis."""
+    def travel(self, pieces: tuple[Piece, ...]) -> Fraction:
+        """Counts that pieces move the axis."""
         ...
 
     def lasts(self, piece: Piece) -> bool:
@@ -72,8 +72,7 @@ class Planned(NamedTuple, Generic[Piece]):
 def plan_segment(planner: Planner[Move, Piece, Speed], move: Move, entry: Speed) -> tuple[Planned[Piece], Speed]:
     """One segment and the speed at its end."""
     pieces, speed = planner.plan(move, entry)
-    travel = sum((planner.travel(piece) for piece in pieces), Fraction(0))
-    return Planned((), (), 0, pieces, travel), speed
+    return Planned((), (), 0, pieces, planner.travel(pieces)), speed
 
 
 def plan_loop(planner: Planner[Move, Piece, Speed], loop: Loop[Move], entry: Speed) -> tuple[Planned[Piece], Speed]:

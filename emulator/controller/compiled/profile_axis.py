@@ -12,6 +12,9 @@ from emulator.controller.compiled.profile import AxisProfile
 from emulator.controller.settings import Settings
 from protocol.errors import ends_moving
 
+SEGMENTS_EACH = 1
+"""Segments of compiled memory that a GOBUF, PLOOP, PLN or POUT takes on each axis it is for (assumed L)."""
+
 
 class ProfileAxis(ABC):
     """What GOBUF, PLOOP, PLN and what stands before a GOBUF do to one axis.
@@ -26,6 +29,7 @@ class ProfileAxis(ABC):
         self.outputs: str | None = None
         self.hold: SegmentHold | None = None
         self.direction = 0
+        self.segments = 0
         self._last_is_preset = False
 
     @abstractmethod
@@ -35,6 +39,11 @@ class ProfileAxis(ABC):
     @abstractmethod
     def profile(self) -> AxisProfile:
         """All segments."""
+
+    def switch_outputs(self, pattern: str) -> None:
+        """POUT: outputs at the beginning of the next segment."""
+        self.outputs = pattern
+        self.segments += SEGMENTS_EACH
 
     def gobuf(self, settings: Settings) -> None:
         """GOBUF: the next segment."""

@@ -11,11 +11,11 @@ from emulator.controller.compiled.holds import HOLDING_COMMANDS, holds_of
 from emulator.controller.compiled.kinds import Compilation, Kind, register
 from emulator.controller.compiled.loops import Unsteady
 from emulator.controller.compiled.profile import CompiledProfile, is_slave
-from emulator.controller.compiled.profile_axis import ProfileAxis
+from emulator.controller.compiled.profile_axis import SEGMENTS_EACH, ProfileAxis
 from emulator.controller.compiled.ratio_axis import RatioAxis
 from emulator.controller.compiled.timed_axis import TimedAxis
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.motion.go import check_s_curve_of, named_axes
+from emulator.controller.motion.go import named_axes
 from emulator.controller.wires.outputs import output_pattern
 from emulator.engine.ratio_profile import DistanceMismatch
 from protocol.command import Command
@@ -30,9 +30,6 @@ from protocol.fields import checked_number, place_values, range_of
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
-
-SEGMENTS_EACH = 1
-"""Segments of compiled memory that a GOBUF, PLOOP, PLN or POUT takes on each of its axes (assumed L)."""
 
 PROFILE_SETTINGS = frozenset({"A", "AA", "AD", "ADA", "V", "D", "MA", "MC", "FOLRN", "FOLRD", "FOLMD"})
 """Settings that may change between the segments of a profile (assumed)."""
@@ -50,7 +47,6 @@ class ProfileBuilder:
         self._axes: dict[int, ProfileAxis] = {}
         self._with_segments: set[int] = set()
         self._outputs: str | None = None
-        self._segments = 0
 
     def take(self, command: Command) -> None:
         """One of the profile's own commands."""
@@ -71,11 +67,8 @@ class ProfileBuilder:
 
     def finish(self) -> CompiledProfile:
         """The whole program."""
-        profiles = []
-        for axis_index, axis in sorted(self._axes.items()):
-            if axis_index in self._with_segments:
-                profiles.append(axis.finish())
-        return CompiledProfile(tuple(profiles), self._segments)
+        used = [self._axes[axis_index] for axis_index in sorted(self._with_segments)]
+        return CompiledProfile(tuple(axis.finish() for axis in used), sum(axis.segments for axis in used))
 
     def _axis(self, axis_index: int) -> ProfileAxis:
         if axis_index not in self._axes:
@@ -89,38 +82,39 @@ class ProfileBuilder:
 
     def _gobuf(self, command: Command) -> None:
         for axis_index in self._named(command):
-            check_s_curve_of(self._settings, axis_index)
             axis = self._axis(axis_index)
             if self._outputs is not None:
-                axis.outputs, self._outputs = self._outputs, None
+                axis.switch_outputs(self._outputs)
+                self._outputs = None
             with refusals(axis_index):
                 axis.gobuf(self._settings)
             self._with_segments.add(axis_index)
-            self._segments += SEGMENTS_EACH
+            axis.segments += SEGMENTS_EACH
 
     def _open_loops(self, command: Command) -> None:
         for axis_index, passes in _passes(command, self._settings.axes_in_use).items():
-            self._axis(axis_index).builder.open_loop(passes)
-            self._segments += SEGMENTS_EACH
+            axis = self._axis(axis_index)
+            axis.builder.open_loop(passes)
+            axis.segments += SEGMENTS_EACH
 
     def _close_loops(self, command: Command) -> None:
         named = self._named(command)
         if command.is_query and command.axis is None:
             named = [axis_index for axis_index in named if self._axis(axis_index).builder.in_loop] or named
         for axis_index in named:
+            axis = self._axis(axis_index)
             with refusals(axis_index):
-                self._axis(axis_index).builder.close_loop(keep=axis_index in self._with_segments)
-            self._segments += SEGMENTS_EACH
+                axis.builder.close_loop(keep=axis_index in self._with_segments)
+            axis.segments += SEGMENTS_EACH
 
     def _switch_outputs(self, command: Command) -> None:
         if command.is_query:
             raise CommandError(INCORRECT_DATA)
         pattern = output_pattern(self._controller, command)
-        self._segments += SEGMENTS_EACH
         if command.name == "POUT":
             self._outputs = pattern
         else:
-            self._axis(AXIS_OUTPUTS[command.name]).outputs = pattern
+            self._axis(AXIS_OUTPUTS[command.name]).switch_outputs(pattern)
 
     def _end_at_rest(self, command: Command) -> None:
         """VF0, FOLRNF0: 0 is the only value there is."""
@@ -159,7 +153,7 @@ def _passes(command: Command, axes: int) -> dict[int, int | None]:
     }
 
 
-@handles("GOBUF", "PLOOP", "PLN", "POUTA", "POUTB")
+@handles("GOBUF", "PLOOP", "PLN", "POUT", *AXIS_OUTPUTS)
 def outside_a_profile(controller: Controller, command: Command) -> Lines:
     """The commands of a profile do nothing by themselves (assumed).
 

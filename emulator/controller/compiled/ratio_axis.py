@@ -48,9 +48,9 @@ class RatioPlanner:
             pieces = (_endless(entry, Held(move.marks.hold)), *pieces)
         return pieces, leaving
 
-    def travel(self, piece: StreamedRatio) -> Fraction:
-        """Counts a piece moves the slave."""
-        return ZERO if piece.segment.master is None else piece.segment.slave
+    def travel(self, pieces: tuple[StreamedRatio, ...]) -> Fraction:
+        """Counts that pieces move the slave."""
+        return sum((piece.segment.slave for piece in pieces if piece.segment.master is not None), ZERO)
 
     def lasts(self, piece: StreamedRatio) -> bool:
         """Whether a piece takes master travel."""

@@ -7,20 +7,26 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from emulator.controller.compiled.axis_builder import AxisBuilder
 from emulator.controller.compiled.blending import TimedMove, blend
 from emulator.controller.compiled.loops import Planned, pieces_of
 from emulator.controller.compiled.marks import Held, Marks, Over
 from emulator.controller.compiled.profile_axis import ProfileAxis
+from emulator.controller.scaling import Quantity
 from emulator.engine import Engine, Segment
 from emulator.engine.rates import NS_PER_S
 from emulator.engine.streaming import ENDLESS, PARTS_PER_COUNT, Stream, StreamedSegment
+from protocol.errors import s_curve_acceleration, s_curve_deceleration
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
     from emulator.controller.settings import Settings
+
+RAMPS = ("A", "AD", "AA", "ADA")
+
+Ramps: TypeAlias = tuple[float, float, float, float]
 
 OUTPUTS_AHEAD = (3, 4)
 """Outputs switch at the system update before which their segment begins less than this share of a period later: from
@@ -51,9 +57,9 @@ class TimedPlanner:
             pieces = (_endless(entry, Held(move.marks.hold)), *pieces)
         return pieces, leaving
 
-    def travel(self, piece: StreamedSegment) -> Fraction:
-        """Counts a piece moves the axis."""
-        return Fraction(piece.displacement, PARTS_PER_COUNT)
+    def travel(self, pieces: tuple[StreamedSegment, ...]) -> Fraction:
+        """Counts that pieces move the axis."""
+        return Fraction(sum(piece.displacement for piece in pieces), PARTS_PER_COUNT)
 
     def lasts(self, piece: StreamedSegment) -> bool:
         """Whether a piece takes time."""
@@ -73,34 +79,49 @@ class TimedAxis(ProfileAxis):
         self._timed: AxisBuilder[TimedSegment, StreamedSegment, float] = AxisBuilder(
             axis_index, planner, position=position, at_rest=0.0
         )
+        self._entered: tuple[Quantity, ...] = ()
+        self._ramps: Ramps = (0.0, 0.0, 0.0, 0.0)
         super().__init__(axis_index, self._timed)
 
     def add_segment(self, settings: Settings, marks: Marks, *, ends_at_rest: bool) -> int:
-        """A segment made of A, AA, AD, ADA, V, D, MA and MC."""
-        move = timed_move(settings, self.axis_index, self._timed.position, ends_at_rest=ends_at_rest)
+        """A segment made of A, AA, AD, ADA, V, D, MA and MC.
+
+        Raises:
+            CommandError: INVALID CONDITIONS FOR S_CURVE ...
+        """
+        distance, velocity = travel_and_velocity(settings, self.axis_index, self._timed.position)
+        move = TimedMove(distance, velocity, *self._ramps_in_force(settings), ends_at_rest)
         self._timed.add(TimedSegment(move, marks))
-        return (move.velocity > 0.0) - (move.velocity < 0.0)
+        return (velocity > 0.0) - (velocity < 0.0)
+
+    def _ramps_in_force(self, settings: Settings) -> Ramps:
+        """A, AD, AA, ADA in counts/s2, worked out and checked anew only when one of them has been set."""
+        entered = tuple(settings.setting(name, self.axis_index) for name in RAMPS)
+        if entered != self._entered:
+            up, down, average_up, average_down = (float(settings.counts(name, self.axis_index)) for name in RAMPS)
+            _check_s_curves(self.axis_index + 1, up, down, average_up, average_down)
+            self._entered, self._ramps = entered, (up, down, average_up, average_down)
+        return self._ramps
 
     def profile(self) -> TimedProfile:
         """All segments."""
         return TimedProfile(self.axis_index, self.direction, tuple(self._timed.planned), self._timed.speed)
 
 
-def timed_move(settings: Settings, axis_index: int, position: Fraction, *, ends_at_rest: bool) -> TimedMove:
-    """What the settings make of a segment that begins at `position`, counts."""
-    counts = settings.counts
-    whole, continuous = int(counts("D", axis_index)), settings.flag("MC", axis_index)
+def _check_s_curves(axis: int, up: float, down: float, average_up: float, average_down: float) -> None:
+    """The rule of GO, checked at PCOMP."""
+    if not up <= 2.0 * average_up <= 2.0 * up:
+        raise s_curve_acceleration(axis)
+    if not down <= 2.0 * average_down <= 2.0 * down:
+        raise s_curve_deceleration(axis)
+
+
+def travel_and_velocity(settings: Settings, axis_index: int, position: Fraction) -> tuple[float | None, float]:
+    """Distance (None with MC1) and signed velocity of a segment that begins at `position`, counts."""
+    whole, continuous = int(settings.counts("D", axis_index)), settings.flag("MC", axis_index)
     travel = float(whole - position) if settings.flag("MA", axis_index) and not continuous else float(whole)
-    velocity = float(counts("V", axis_index))
-    return TimedMove(
-        distance=None if continuous else travel,
-        velocity=-velocity if travel < 0.0 else velocity,
-        acceleration=float(counts("A", axis_index)),
-        deceleration=float(counts("AD", axis_index)),
-        average_acceleration=float(counts("AA", axis_index)),
-        average_deceleration=float(counts("ADA", axis_index)),
-        ends_at_rest=ends_at_rest,
-    )
+    velocity = float(settings.counts("V", axis_index))
+    return None if continuous else travel, -velocity if travel < 0.0 else velocity
 
 
 @dataclass(frozen=True, slots=True)

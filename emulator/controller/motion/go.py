@@ -30,7 +30,6 @@ from protocol.status import AxisStatus, ErrorStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
-    from emulator.controller.settings import Settings
 
 OPEN_LOOP = 0
 
@@ -130,11 +129,7 @@ def check_s_curve(controller: Controller, axis_index: int, family: str = "") -> 
     Raises:
         CommandError: INVALID CONDITIONS FOR S_CURVE ...
     """
-    check_s_curve_of(controller.settings, axis_index, family)
-
-
-def check_s_curve_of(settings: Settings, axis_index: int, family: str = "") -> None:
-    """As ``check_s_curve``, of settings that need not be the unit's own."""
+    settings = controller.settings
     maximum, average = settings.counts(f"{family}A", axis_index), settings.counts(f"{family}AA", axis_index)
     if not maximum <= 2 * average <= 2 * maximum:
         raise s_curve_acceleration(axis_index + 1)
