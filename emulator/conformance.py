@@ -31,21 +31,18 @@ TRANSCRIPTS: Final = Path(__file__).parents[1] / "tests" / "transcripts"
 _MOTION: Final = "comes with the motion modes: compiled motion, contouring"
 _OTHER_PRODUCT: Final = "not a command of the OEM6250; COMMAND NOT IMPLEMENTED is what the unit itself answers"
 
-ABSENT_GROUPS: Final[Mapping[str, str]] = {
-    "contouring": _MOTION,
-}
+ABSENT_GROUPS: Final[Mapping[str, str]] = {}
 """Groups of which absent rows have one reason."""
 
 ABSENT_ROWS: Final[Mapping[str, str]] = {
     "TRANS": "translation mode needs the computer bus of other products; only its default is accepted",
-    **dict.fromkeys(("GOL",), _MOTION),
 }
 """Absent rows of other groups, each with its reason."""
 
 _LINE: Final = "acts with a second port"
 
 STORED_ROWS: Final[Mapping[str, str]] = {
-    **dict.fromkeys(("VF", "FOLRNF", "PA", "PAA", "PAD", "PADA", "PV", "PSCLA", "PSCLV", "PSCLD"), _MOTION),
+    **dict.fromkeys(("VF", "FOLRNF"), _MOTION),
     **dict.fromkeys(("LOCK", "DRPCHK"), _LINE),
     **dict.fromkeys(("COMEXK", "FOLK"), "stores only: its existence is not confirmed"),
     "TIMINT": "its alarm goes to the computer bus of other products",

@@ -32,6 +32,7 @@ from emulator.machine_tables import (
     Limits,
     Memory,
     Options,
+    Paths,
     RateRow,
     Rp240,
     Serial,
@@ -107,6 +108,7 @@ class Machine(Table, frozen=True):
         bool, known("DEL of a program that does not exist is refused", "assumed", "M", "host scripts DEL before DEF")
     ] = False
     limits: Annotated[Limits, known("field ranges", "assumed", "M")] = Limits()
+    paths: Annotated[Paths, known("contour paths", "assumed", "L")] = Paths()
     memory: Annotated[Memory, known("user memory", "documented", source="UG 74, 83")] = Memory()
     timing: Annotated[Timing, known("how fast commands and programs run", "assumed", "L")] = Timing()
     servo: Annotated[Servo, known("the servo processor", "assumed", "L")] = Servo()

@@ -188,6 +188,21 @@ class Limits(Table, frozen=True):
     ] = Range(minimum=0.00025, maximum=24_999_975.0)
 
 
+class Paths(Table, frozen=True):
+    """Contour paths."""
+
+    radius_tolerance: Annotated[
+        float,
+        known(
+            "counts by which the radii at both ends of an arc may differ where its path has no PRTOL",
+            "assumed",
+            "L",
+            "as much as whole counts make them differ",
+            ge=0.0,
+        ),
+    ] = 2.0
+
+
 class Memory(Table, frozen=True):
     """User memory and its counts."""
 

@@ -32,6 +32,7 @@ from emulator.controller.motion.joystick import Joystick
 from emulator.controller.motion.pausing import Pausing
 from emulator.controller.motion.stopping import end_of_travel, stop_axes
 from emulator.controller.output import Output
+from emulator.controller.paths.motion import Paths
 from emulator.controller.programs.debugging import Debugging
 from emulator.controller.programs.on_conditions import OnConditions
 from emulator.controller.programs.program_select import ProgramSelect, security_locked
@@ -140,6 +141,7 @@ class Controller:
         self.homing = Homing(self)
         self.jogging = Jogging(self)
         self.joystick = Joystick(self)
+        self.paths = Paths(self)
         self.held_starts = HeldStarts(self)
         self.captures = Captures(self)
         self.registration = Registration(self)
@@ -332,6 +334,7 @@ class Controller:
         self.held_starts.forget((axis_index,))
         self.registration.forget(axis_index)
         self.engine.disable(axis_index)
+        self.paths.lose_axis(axis_index)
         self.note_drive(axis_index, on=False)
 
     def note_drive(self, axis_index: int, *, on: bool) -> None:
@@ -417,6 +420,7 @@ class Controller:
         if events & Event.SOFT_LIMIT:
             end_of_travel(self, axis_index, "LSAD", ErrorStatus.SOFT_LIMIT_HIT)
         if events & Event.POSITION_ERROR:
+            self.paths.lose_axis(axis_index)
             self.held_starts.forget((axis_index,))
             self.note_drive(axis_index, on=False)
             self.faults.latch(ErrorStatus.POSITION_ERROR_EXCEEDED)
@@ -480,6 +484,7 @@ class Controller:
         self.homing.reset()
         self.jogging.reset()
         self.joystick.reset()
+        self.paths.reset()
         self.held_starts.reset()
         self.captures.power_up()
         self.registration.reset()

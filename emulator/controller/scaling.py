@@ -30,11 +30,12 @@ FACTOR_COMMANDS: dict[Scale, str] = {
     "master": "SCLMAS",
     "path_acceleration": "PSCLA",
     "path_velocity": "PSCLV",
+    "path_distance": "PSCLD",
 }
 
 RATE_SCALES = frozenset({"acceleration", "velocity", "path_acceleration", "path_velocity"})
 VELOCITY_SCALES = frozenset({"velocity", "path_velocity"})
-DISTANCE_SCALES = frozenset({"distance", "master"})
+DISTANCE_SCALES = frozenset({"distance", "master", "path_distance"})
 
 
 class Quantity(NamedTuple):

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+from .arc import go_along_arc
 from .control_law import closed_loop, dither, limited, open_loop
 from .converter import convert_output
 from .encoder import OPEN_LOOP, take_feedback
@@ -112,9 +113,14 @@ def follow_profile(axis: Record, segments: Records, now_ns: int) -> None:
     velocity = segment["velocity"]
     acceleration = segment["acceleration"]
     position = segment["position"] + t * (velocity + t * (0.5 * acceleration + half_rate / 3.0))
+    velocity += t * (acceleration + half_rate)
+    acceleration += segment["jerk"] * t
+    if segment["radius"] != 0.0:
+        go_along_arc(axis, segment, position, velocity, acceleration)
+        return
     axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(position + 0.5)
-    axis["commanded_velocity"] = velocity + t * (acceleration + half_rate)
-    axis["commanded_acceleration"] = acceleration + segment["jerk"] * t
+    axis["commanded_velocity"] = velocity
+    axis["commanded_acceleration"] = acceleration
 
 
 @seldom

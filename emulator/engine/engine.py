@@ -246,7 +246,7 @@ class Engine(RatioStreams):
         if not self._ints[axis_index][ENABLED]:
             raise DriveShutDown(f"the drive of axis {axis_index + 1} is off")
         offset = self._ints[axis_index][OFFSET]
-        raw = tuple(segment._replace(position=segment.position + offset) for segment in segments)
+        raw = tuple(segment.moved(offset) for segment in segments)
         self._streams[axis_index] = None
         self._leave_following(axis_index)
         duration_s = profile_duration(raw)

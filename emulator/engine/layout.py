@@ -345,10 +345,18 @@ PLANT_FIELDS: Fields = (
 
 SEGMENT_FIELDS: Fields = (
     ("start_s", FLOAT, "start within the profile, s"),
-    ("position", FLOAT, "position at the start, counts from the profile's origin"),
-    ("velocity", FLOAT, "velocity at the start, counts/s"),
-    ("acceleration", FLOAT, "acceleration at the start, counts/s2"),
+    (
+        "position",
+        FLOAT,
+        "position at the start, counts from the profile's origin; on an arc the length travelled",
+    ),
+    ("velocity", FLOAT, "velocity at the start, counts/s; on an arc along the path"),
+    ("acceleration", FLOAT, "acceleration at the start, counts/s2; on an arc along the path"),
     ("jerk", FLOAT, "jerk, counts/s3"),
+    ("radius", FLOAT, "radius of the arc, counts; 0 = the axis moves straight"),
+    ("centre", FLOAT, "the arc's centre on this axis, counts from the profile's origin"),
+    ("phase", FLOAT, "angle from this axis's positive direction at the beginning of the arc, rad"),
+    ("curvature", FLOAT, "change of that angle, rad per count of path"),
 )
 
 RATIO_FIELDS: Fields = (

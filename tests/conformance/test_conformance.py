@@ -27,10 +27,6 @@ ERRORS_NOT_YET = {
     for text in (
         "COMMAND/DRIVE MISMATCH",
         "MAXIMUM COUNTS PER SECOND EXCEEDED",
-        "EXCESSIVE PATH RADIUS DIFFERENCE",
-        "PATH RADIUS TOO SMALL",
-        "PATH RADIUS ZERO",
-        "PATH VELOCITY ZERO",
     )
 } | {"NO MOTION IN PROGRESS": "the reference names no command that answers it"}
 """Error texts no transcript can provoke, and why."""

@@ -389,12 +389,6 @@ class TestOneAxis:
         assert session.query("D") == "D+1000"
 
 
-LATER = [
-    *("GOL11", "GOBUF1", "PCOMP P", "PRUN P"),
-    *("PLIN1,1", "PARCM5,5,5", "PARCP1,1,1,1"),
-]
-"""Other issues' work: compiled motion, contouring, linear interpolation."""
-
 OTHER_PRODUCTS = {
     "FMAXA": "COMMAND NOT IMPLEMENTED",
     "OUTPC": "INCORRECT AXIS",
@@ -405,12 +399,6 @@ LATER_FAMILIES = ("FVMFRQ100", "OPTEN1", "BAUD9600")
 
 
 class TestNotThere:
-    @pytest.mark.parametrize("text", LATER)
-    def test_commands_of_other_issues(self, text: str) -> None:
-        session = Session()
-        assert session.error(text) == COMMAND_NOT_IMPLEMENTED
-        assert session.ask("") == OK, "and nothing else"
-
     @pytest.mark.parametrize("name", OTHER_PRODUCTS)
     def test_other_products(self, name: str) -> None:
         assert Session().error(f"{name}1") == OTHER_PRODUCTS[name]

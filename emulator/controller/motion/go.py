@@ -97,12 +97,12 @@ def _axes_to_start(controller: Controller, command: Command) -> list[int]:
 
 
 def check_ready(controller: Controller, axes: Iterable[int]) -> None:
-    """Refuse to start axes that cannot move, or that homing, jogging, the joystick or a compiled profile
-    moves already.
+    """Refuse to start axes that cannot move, or that homing, jogging, the joystick, a path or a compiled profile moves
+    already.
 
     Raises:
         CommandError: ENABLE open, drive shut down, open loop, MOTION IN PROGRESS (for the jog and joystick modes
-            assumed: a C host of 6K units saw it with the joystick on).
+            assumed: a C host of 6K units saw it with the joystick on; for paths assumed).
     """
     if not controller.wiring.enable_grounded:
         raise CommandError(ENABLE_INPUT_INACTIVE)
@@ -112,7 +112,8 @@ def check_ready(controller: Controller, axes: Iterable[int]) -> None:
         if controller.settings.integer("SFB", axis_index) == OPEN_LOOP:
             raise CommandError(NOT_ALLOWED_IF_SFB0)
         by_hand = controller.settings.flag("JOG", axis_index) or controller.settings.flag("JOY", axis_index)
-        if by_hand or controller.homing.active(axis_index) or controller.compiled.moves(axis_index):
+        by_others = controller.paths.carries(axis_index) or controller.compiled.moves(axis_index)
+        if by_hand or by_others or controller.homing.active(axis_index):
             raise CommandError(MOTION_IN_PROGRESS)
 
 
@@ -191,18 +192,28 @@ def allow_motion(controller: Controller, axis_index: int, direction: int) -> boo
 
     Otherwise the limit is latched, AS 15 to 18 and ER 2 or 3.
     """
-    engine = controller.engine
+    if held_by_limit(controller, axis_index, direction):
+        return False
+    forget_refusals(controller, axis_index)
+    return True
+
+
+def held_by_limit(controller: Controller, axis_index: int, direction: int) -> bool:
+    """Whether a limit forbids to set out in a direction; if so its AS and ER bits are set."""
     hit = limit_in_the_way(controller, axis_index, direction)
     if hit is not None:
-        engine.latch_status(axis_index, hit.axis_bit.mask)
+        controller.engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
-        return False
-    in_zone = engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
-    engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
+    return hit is not None
+
+
+def forget_refusals(controller: Controller, axis_index: int) -> None:
+    """A legal start clears the bits of limits met and zones missed before."""
+    in_zone = controller.engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
+    controller.engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
     clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
     if in_zone:
         clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
-    return True
 
 
 def _profile(controller: Controller, axis_index: int, direction: int) -> Segments:

@@ -31,9 +31,12 @@ def stop_axes(controller: Controller, axes: Iterable[int], ramp: str) -> None:
 
 
 def brake(controller: Controller, axis_index: int, ramp: str) -> None:
-    """Bring an axis to rest, if it moves, at a deceleration setting (AD, LHAD, LSAD); no trigger registers then."""
+    """Bring an axis to rest, if it moves, at a deceleration setting (AD, LHAD, LSAD), on a path all axes of it; no
+    trigger registers then."""
     controller.registration.forget(axis_index)
-    if controller.engine.is_moving(axis_index):
+    if controller.paths.carries(axis_index):
+        controller.paths.brake(axis_index, ramp)
+    elif controller.engine.is_moving(axis_index):
         controller.engine.start_profile(axis_index, stop_segments(controller, axis_index, ramp))
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from emulator.controller.compiled.holds import SegmentHold, makes_holds
 from emulator.controller.motion.following.cycles import cycle_start
-from emulator.controller.motion.following.master_condition import MasterPositionReached
+from emulator.controller.registration.master_reached import MasterReached
 from emulator.controller.registration import gowhen, trigger_functions
 from emulator.controller.registration.gowhen import Condition
 
@@ -32,8 +32,8 @@ class ConditionHold:
     def begin(self, controller: Controller, axis_index: int, release: Callable[[], None]) -> None:
         """The segment has been reached."""
         condition = copy(self.condition)
-        if isinstance(condition, MasterPositionReached):
-            condition = replace(condition, cycle=cycle_start(controller, condition.axis_index))
+        if isinstance(condition, MasterReached):
+            condition = replace(condition, since=cycle_start(controller, condition.axis_index))
         controller.held_starts.set_condition(axis_index, gowhen.NAME, condition)
         controller.held_starts.start((axis_index,), release)
 

@@ -26,6 +26,7 @@ def following_status(controller: Controller, axis_index: int) -> str:
     conditions = {
         FollowingStatus.FOLEN_ACTIVE: is_following(controller, axis_index),
         FollowingStatus.OK_TO_SHIFT: ready and not shift_refusal(controller, axis_index),
+        FollowingStatus.MASTER_CYCLE_TRIGGER_PENDING: controller.trigger_functions.awaits_cycle(axis_index),
         FollowingStatus.GEARED_ADVANCE_UNDER_WAY: controller.ratio_moves.advancing(axis_index),
         FollowingStatus.OK_FOR_GEARED_ADVANCE: ready and not advance_refusal(controller, axis_index),
     }
