@@ -12,8 +12,7 @@ from typing import NamedTuple
 import pytest
 
 from protocol.catalogue import CommandRow, rows
-from protocol.errors import COMMAND_NOT_IMPLEMENTED
-from tests.controller.session import OK, Session
+from tests.controller.session import Session
 
 GROUPS = {"communications", "motion", "servo", "drive", "limits", "scaling"}
 

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from emulator.controller.compiled.holds import SegmentHold, makes_holds
 from emulator.controller.motion.following.cycles import cycle_start
-from emulator.controller.registration.master_reached import MasterReached
 from emulator.controller.registration import gowhen, trigger_functions
 from emulator.controller.registration.gowhen import Condition
+from emulator.controller.registration.master_reached import MasterReached
 
 if TYPE_CHECKING:
     from emulator.controller.compiled.kinds import Compilation

@@ -368,3 +368,22 @@ def test_reset_forgets_a_line_under_way() -> None:
     session.advance(0.5)
     session.read()
     session.ok("SMPER0,0", "DRIVE11", "D100,100", "GO", wait_s=1)
+
+
+def test_gowhen_of_any_axis_holds_the_line() -> None:
+    """GOWHEN holds the next GO or GOL: a line sets out when the conditions of all its axes have come true."""
+    session = liner("COMEXC1", "PV5", "PA50", "D4000,3000", "GOWHEN(T=100),(T=300)", "GOL11")
+    assert session.axis_bit(26, axis=1) and session.axis_bit(26, axis=2)
+    session.advance(0.2)
+    assert positions(session) == (0, 0), "the second axis still waits"
+    session.advance(0.2)
+    assert session.axis_bit(1, axis=1) and session.axis_bit(1, axis=2)
+    track(session)
+    assert positions(session) == (4000, 3000)
+
+
+def test_a_stop_forgets_a_line_that_waits() -> None:
+    session = liner("COMEXC1", "D4000,3000", "GOWHEN(T=100)", "GOL11", "!S")
+    session.advance(1.0)
+    assert positions(session) == (0, 0)
+    assert not session.axis_bit(26, axis=1) and not session.axis_bit(26, axis=2)
