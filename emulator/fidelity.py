@@ -50,6 +50,8 @@ LIMITS: Final = (
     "drive without resonance or backlash. Gains tuned here are not gains for your machine.",
     "The encoder is ideal unless the machine file says otherwise: no noise, and no missed counts below its input's "
     "greatest rate.",
+    "What a trigger does not latch in hardware is timed in steps of 100 us: that its error stays within 50 us "
+    "times the velocity is documented, the steps are assumed.",
     "Limits, ENABLE and drive faults follow the wiring of the machine file; contacts do not bounce.",
     "A virtual serial port has no baud rate, no modem lines, no framing errors and no line noise.",
     "What a unit remembers over power-off is taken from a later product's list.",

@@ -19,6 +19,10 @@ _SENSOR, _COMPARING, _PASSED = (axis_word(name) for name in ("sensor_fitted", "c
 _CAPTURED_NS, _CAPTURES = axis_word("captured_edge_ns"), axis_word("captures")
 _OWN = tuple(axis_word(f"own_{name}_capture") for name in ("encoder", "commanded", "ani"))
 _OTHER = tuple(axis_word(f"other_{name}_capture") for name in ("encoder", "commanded", "ani"))
+_MASTER_SOURCE, _MASTER_INDEX, _MASTER_SIGN, _MASTER_RAW, _MASTER_COUNTS = (
+    axis_word(f"master_{name}") for name in ("source", "index", "sign", "raw", "counts")
+)
+_MASTER_ENCODER, _MASTER_ANI = 1, 2
 
 
 class CapturedPositions(NamedTuple):
@@ -85,6 +89,15 @@ class TriggerInputs(Terminals):
         ints = self._ints[axis_index]
         encoder, commanded, ani = (ints[word] for word in (_OWN if trigger_index == axis_index else _OTHER))
         return CapturedPositions(encoder - ints[ENCODER_OFFSET], commanded - ints[OFFSET], ani - ints[ANI_OFFSET])
+
+    def master_at_capture(self, trigger_index: int, axis_index: int) -> int:
+        """The master travel (`master_counts`) of a slave when a trigger last latched positions."""
+        ints = self._ints[axis_index]
+        master_index = ints[_MASTER_INDEX]
+        words = _OWN if trigger_index == master_index else _OTHER
+        encoder, commanded, ani = (self._ints[master_index][word] for word in words)
+        latched = {_MASTER_ENCODER: encoder, _MASTER_ANI: ani}.get(ints[_MASTER_SOURCE], commanded)
+        return ints[_MASTER_COUNTS] + ints[_MASTER_SIGN] * (latched - ints[_MASTER_RAW])
 
     def forget_captures(self) -> None:
         """Power-up: nothing is latched."""

@@ -110,3 +110,13 @@ def test_a_trigger_begins_a_master_cycle_once() -> None:
     assert rig.query("1TPMAS") == "1TPMAS-50"
     assert rig.query("1TRGFNA") == "1TRGFNA00"
     assert not rig.following_bit(13)
+
+
+def test_the_cycle_begins_where_the_master_was_at_the_edge() -> None:
+    rig = FollowingRig("INFNC26-H", "INFEN1", "FMCP10", "1TRGFNBX1")
+    rig.travel(321)
+    begin_s = rig.now_ns / S
+    rig.unit.do("press_trigger", trigger="B", at=begin_s + 0.0007)
+    rig.emulator.at(begin_s + 0.0012, lambda: rig.unit.do("slip_encoder", axis=2, counts=40))
+    rig.advance(3 * SYSTEM_NS / S)
+    assert rig.query("1TPMAS") == "1TPMAS+50"
