@@ -151,11 +151,18 @@ def start(controller: Controller, axis_index: int, *, at_master: int | None = No
     """Start one axis, moving or not: nothing moves into an active limit; a preset move that cannot be had from the
     present motion leaves that as it is, with AS bit 30 and ER bit 10 (assumed M).
 
-    ``at_master`` is a master position to come, at which a slave is to begin.
+    ``at_master`` is a master position to come, at which a slave is to begin.  A move that was legal when it was
+    commanded and is no longer when what it waited for comes does not start (assumed).
     """
-    if is_following(controller, axis_index):
-        _start_following(controller, axis_index, at_master)
-        return
+    with suppress(CommandError):
+        if is_following(controller, axis_index):
+            _start_following(controller, axis_index, at_master)
+        else:
+            check_s_curve(controller, axis_index)
+            _start_in_time(controller, axis_index)
+
+
+def _start_in_time(controller: Controller, axis_index: int) -> None:
     direction = _direction(controller, axis_index)
     segments: Segments = ()
     if limit_in_the_way(controller, axis_index, direction) is None:
@@ -171,10 +178,8 @@ def start(controller: Controller, axis_index: int, *, at_master: int | None = No
 
 
 def _start_following(controller: Controller, axis_index: int, at_master: int | None) -> None:
-    """A move that is no longer legal when what it waited for comes does not start (assumed)."""
-    with suppress(CommandError):
-        if allow_motion(controller, axis_index, moves.direction(controller, axis_index)):
-            moves.start_move(controller, axis_index, start_at=at_master)
+    if allow_motion(controller, axis_index, moves.direction(controller, axis_index)):
+        moves.start_move(controller, axis_index, start_at=at_master)
 
 
 def _direction(controller: Controller, axis_index: int) -> int:

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.controller.motion.following.cycles import restart_at_trigger
+from emulator.controller.motion.following.assignment import has_master
+from emulator.controller.motion.following.ratio import master_counts
 from emulator.controller.registration.captures import LETTERS
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, INVALID_CONDITIONS, CommandError
@@ -81,7 +82,15 @@ class TriggerFunctions:
             self._controller.held_starts.fulfil(axis_index, _command(trigger_index))
             if (trigger_index, axis_index) in self._new_cycle:
                 self._new_cycle.remove((trigger_index, axis_index))
-                restart_at_trigger(self._controller, axis_index, trigger_index)
+                new_cycle(self._controller, trigger_index, axis_index)
+
+
+def new_cycle(controller: Controller, trigger_index: int, axis_index: int) -> None:
+    """As FMCNEW, at the edge: the master position was FMCP where the master was then; nothing without a master."""
+    if has_master(controller, axis_index):
+        at = controller.engine.master_at_capture(trigger_index, axis_index)
+        position = master_counts(controller.settings, "FMCP", axis_index)
+        controller.engine.restart_master_cycle(axis_index, position, at=at)
 
 
 def _command(trigger_index: int) -> str:

@@ -192,3 +192,28 @@ def test_an_index_a_cycle_with_gowhen() -> None:
     store(session, CYCLIC)
     run(session, "INDEX", seconds=(CYCLES + 2) * 4000 / MASTER_COUNTS_S)
     assert session.position() == CYCLES * 1333
+
+
+@pytest.mark.parametrize(
+    ("start", "spoil"),
+    [("1FSHFD100", ("AA1", "A100")), ("1GO1", ("FOLMD1",)), ("1GO1", ("FOLRN128",)), ("1FSHFC1", ("AA1", "A100"))],
+)
+def test_what_is_no_longer_legal_when_its_time_comes_does_not_start(start: str, spoil: tuple[str, ...]) -> None:
+    """An input lets go what the settings no longer make; the unit goes on."""
+    rig = FollowingRig("MC0", "FOLMD1000", "D900", "INFEN1", "GOWHEN(IN.1=b1)", start)
+    assert rig.axis_bit(PENDING)
+    rig.ok(*spoil)
+    rig.set_wire("input.1", closed=True)
+    assert rig.travel(2000) == 0
+    rig.ok("AA0", "FOLRN1", "FOLMD1000", "1GO1")
+    assert rig.travel(1000) == 900
+
+
+def test_a_move_in_time_that_is_no_s_curve_when_its_time_comes_does_not_start() -> None:
+    rig = FollowingRig("1FOLEN0", "INFEN1", "D500", "GOWHEN(IN.1=b1)", "1GO1", "A100", "AA1")
+    rig.set_wire("input.1", closed=True)
+    rig.advance(0.5)
+    assert rig.position() == 0
+    rig.ok("AA0", "1GO1")
+    rig.advance(1.0)
+    assert rig.position() == 500

@@ -185,3 +185,16 @@ def test_position_error_ends_the_move() -> None:
     rig.ok("1DRIVE1", "FOLRN1", "1GO1")
     before = rig.travel(0)
     assert rig.travel(100) == before + 100
+
+
+def test_a_unit_may_come_up_as_a_slave() -> None:
+    session = Session("", FOLMAS="+24,0", FOLEN="10", COMEXC=1)
+    for _ in range(2):
+        session.ok("DRIVE11", "1MC1", "COMEXC1", "1GO1", "2D4000", "2GO", wait_s=0.05)
+        session.until_rest(2)
+        session.advance(0.1)
+        assert session.position() == 4000
+        session.ask("!RESET")
+        session.advance(0.1)
+        session.read()
+        session.ok("PSET0,0")

@@ -9,12 +9,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles
-from emulator.controller.motion.following.assignment import has_master, master_of
+from emulator.controller.motion.following.assignment import has_master
 from emulator.controller.motion.following.ratio import master_counts
 from protocol.command import Command
 from protocol.errors import FOLMAS_NOT_SPECIFIED, INCORRECT_DATA, CommandError
 from protocol.fields import place_mask
-from protocol.masters import MasterKind
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -44,23 +43,6 @@ def restart_cycle(controller: Controller, command: Command) -> Lines:
     for axis_index in axes:
         controller.engine.restart_master_cycle(axis_index, master_counts(controller.settings, "FMCP", axis_index))
     return None
-
-
-def restart_at_trigger(controller: Controller, axis_index: int, trigger_index: int) -> None:
-    """TRGFN: the master position was FMCP at the instant of a trigger's edge; nothing without a master (assumed)."""
-    master = master_of(controller, axis_index)
-    if master is None:
-        return
-    engine = controller.engine
-    captured = engine.captured_positions(trigger_index, master.axis_index)
-    if master.kind is MasterKind.ENCODER:
-        passed = engine.encoder_position(master.axis_index) - captured.encoder
-    elif master.kind is MasterKind.ANI:
-        passed = engine.ani_position(master.axis_index) - captured.ani
-    else:
-        passed = engine.commanded_position(master.axis_index) - captured.commanded
-    at = engine.master_counts(axis_index) - master.sign * passed
-    engine.restart_master_cycle(axis_index, master_counts(controller.settings, "FMCP", axis_index), at=at)
 
 
 @dataclass(frozen=True, slots=True)

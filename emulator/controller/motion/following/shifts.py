@@ -6,6 +6,8 @@ They need TFS bit 9: Following enabled, no ramp, no preset move, no preset shift
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import suppress
 from enum import IntEnum
 from functools import partial
 from typing import TYPE_CHECKING
@@ -68,6 +70,13 @@ def _check_shift(controller: Controller, axis_index: int) -> None:
     check_s_curve(controller, axis_index)
 
 
+def _if_legal(controller: Controller, axis_index: int, shift: Callable[[], None]) -> None:
+    """A shift that is no longer legal when what it was held for comes does not begin (assumed)."""
+    with suppress(CommandError):
+        _check_shift(controller, axis_index)
+        shift()
+
+
 @handles("FSHFC")
 def shift_continuously(controller: Controller, command: Command) -> Lines:
     """FSHFC: 1 and 2 shift on and on in the positive and negative direction, 0 stops the shift, 3 kills it.
@@ -85,7 +94,10 @@ def shift_continuously(controller: Controller, command: Command) -> Lines:
             _stop_shift(controller, axis_index)
         else:
             direction = 1 if shift is ContinuousShift.POSITIVE else -1
-            controller.held_starts.start((axis_index,), partial(_run_on, controller, axis_index, direction))
+            controller.held_starts.start(
+                (axis_index,),
+                partial(_if_legal, controller, axis_index, partial(_run_on, controller, axis_index, direction)),
+            )
     return None
 
 
@@ -116,7 +128,7 @@ def _braking(controller: Controller, axis_index: int) -> Segments:
 def _begin(
     controller: Controller, axis_index: int, segments: Segments, direction: int, *, continuous: bool = False
 ) -> None:
-    """Start a shift that may still begin when what it was held for comes; at rest nothing moves into a limit."""
+    """Start a shift; at rest nothing moves into an active limit."""
     resting = controller.engine.commanded_velocity(axis_index) == 0.0
     if (
         segments
@@ -133,7 +145,10 @@ def shift_by_distance(controller: Controller, command: Command) -> Lines:
     for axis_index in given:
         _check_shift(controller, axis_index)
     for axis_index, counts in given.items():
-        controller.held_starts.start((axis_index,), partial(_shift_by, controller, axis_index, counts))
+        controller.held_starts.start(
+            (axis_index,),
+            partial(_if_legal, controller, axis_index, partial(_shift_by, controller, axis_index, counts)),
+        )
     if not controller.settings.flag("COMEXC"):
         controller.interpreter.wait_for(FollowingWait((), shifting=tuple(given)))
     return None
