@@ -84,6 +84,8 @@ def carry_out(controller: Controller, command: Command) -> Lines:
         return None
     if row.name == "TPM" and not controller.machine.answer_tpm:
         raise CommandError(COMMAND_NOT_IMPLEMENTED)
+    if row.group == "following" and not controller.machine.options.following:
+        raise CommandError(COMMAND_NOT_IMPLEMENTED)
     check_axis(command, controller.settings.axes_in_use)
     if command.substituted:
         command = controller.substitute(command)
