@@ -37,7 +37,10 @@ FLAGS = {
     "FollowingFlags": (words.FollowingStatus, "FS"),
     "OtherInputFlags": (words.OtherInputs, "INO"),
 }
-_DECIMAL_SCALES = ("acceleration", "velocity", "distance", "master", "path_acceleration", "path_velocity")
+_DECIMAL_SCALES = (
+    *("acceleration", "velocity", "distance", "master"),
+    *("path_acceleration", "path_velocity", "path_distance"),
+)
 
 
 @dataclass(frozen=True)

@@ -28,34 +28,21 @@ State = Literal["implemented", "stored", "absent"]
 TRANSCRIPTS: Final = Path(__file__).parents[1] / "tests" / "transcripts"
 """Where the transcripts are in a source tree; an installed package has none."""
 
-_MOTION: Final = "comes with the motion modes: Following, compiled motion, contouring, registration"
 _OTHER_PRODUCT: Final = "not a command of the OEM6250; COMMAND NOT IMPLEMENTED is what the unit itself answers"
-
-ABSENT_GROUPS: Final[Mapping[str, str]] = {
-    "contouring": _MOTION,
-    "compiled": _MOTION,
-    "following": _MOTION,
-    "registration": _MOTION,
-}
-"""Groups of which absent rows have one reason."""
 
 ABSENT_ROWS: Final[Mapping[str, str]] = {
     "TRANS": "translation mode needs the computer bus of other products; only its default is accepted",
-    **dict.fromkeys(("GOL", "GOWHEN", "TRGFN", "PCA", "PCC", "PCE"), _MOTION),
-    **dict.fromkeys(("PMAS", "PSLV", "PSHF", "NMCY", "VMAS", "FS"), _MOTION),
-    **dict.fromkeys(("TPCA", "TPCC", "TPCE", "TPMAS", "TPSLV", "TPSHF", "TNMCY", "TVMAS", "TFS", "TFSF"), _MOTION),
 }
-"""Absent rows of other groups, each with its reason."""
+"""Absent rows, each with its reason."""
 
 _LINE: Final = "acts with a second port"
 
 STORED_ROWS: Final[Mapping[str, str]] = {
-    **dict.fromkeys(("VF", "PA", "PAA", "PAD", "PADA", "PV", "PSCLA", "PSCLV", "PSCLD", "SCLMAS"), _MOTION),
     **dict.fromkeys(("LOCK", "DRPCHK"), _LINE),
     **dict.fromkeys(("COMEXK", "FOLK"), "stores only: its existence is not confirmed"),
     "TIMINT": "its alarm goes to the computer bus of other products",
 }
-"""Settings outside the motion groups that only store and report, each with the reason."""
+"""Settings that only store and report, each with the reason."""
 
 _REFUSED: Final = re.compile(rb"COMMAND NOT IMPLEMENTED|UNDEFINED LABEL|INVALID COMMAND|INCORRECT DATA")
 
@@ -128,14 +115,10 @@ def _state(row: CommandRow) -> tuple[State, str]:
     in_expressions = row.kind in ("operator", "operand")
     there = example_of(row) not in refused_examples() if in_expressions else _carried_out(row)
     if not there:
-        return "absent", _reason(row)
-    if row.name in STORED_ROWS or (row.group in ABSENT_GROUPS and row.kind == "setting"):
-        return "stored", STORED_ROWS.get(row.name) or ABSENT_GROUPS[row.group]
+        return "absent", ABSENT_ROWS.get(row.name, "")
+    if row.name in STORED_ROWS:
+        return "stored", STORED_ROWS[row.name]
     return "implemented", ""
-
-
-def _reason(row: CommandRow) -> str:
-    return ABSENT_ROWS.get(row.name) or ABSENT_GROUPS.get(row.group, "")
 
 
 def _carried_out(row: CommandRow) -> bool:
@@ -146,7 +129,7 @@ def _carried_out(row: CommandRow) -> bool:
     if row.name in dispatch.handled_names():
         return True
     plain = row.kind == "setting" and row.reply in dispatch.SETTING_REPLIES
-    return plain and row.name not in dispatch.NEEDS_ITS_OWN_HANDLER | dispatch.SWITCHES_WITHOUT_FUNCTION
+    return plain and row.name not in dispatch.SWITCHES_WITHOUT_FUNCTION
 
 
 def example_of(row: CommandRow) -> str:

@@ -18,6 +18,7 @@ from typing import Any, Final, Protocol
 import msgspec
 from msgspec import inspect
 
+from emulator.encoder_motion_tables import MOTION_KINDS
 from emulator.machine import AXIS_KEYS, Machine, VelocityDrive
 from emulator.machine_settings import DEFAULT_SETTINGS
 from emulator.plant_tables import KINDS
@@ -49,6 +50,8 @@ LIMITS: Final = (
     "drive without resonance or backlash. Gains tuned here are not gains for your machine.",
     "The encoder is ideal unless the machine file says otherwise: no noise, and no missed counts below its input's "
     "greatest rate.",
+    "What a trigger does not latch in hardware is timed in steps of 100 us: that its error stays within 50 us "
+    "times the velocity is documented, the steps are assumed.",
     "Limits, ENABLE and drive faults follow the wiring of the machine file; contacts do not bounce.",
     "A virtual serial port has no baud rate, no modem lines, no framing errors and no line noise.",
     "What a unit remembers over power-off is taken from a later product's list.",
@@ -93,8 +96,14 @@ def entries(machine: Machine | None = None) -> list[Entry]:
         if table is not VelocityDrive
         for entry in _table_entries(table(), inspect.type_info(table), f"axis1.plant ({kind}).")
     ]
+    motions = [
+        entry
+        for kind, table in MOTION_KINDS.items()
+        for entry in _table_entries(table(), inspect.type_info(table), f"axis1.encoder_motion ({kind}).")
+    ]
     others = tuple(f"{key}." for key in AXIS_KEYS[1:])
-    return [*(entry for entry in found if not entry.key.startswith(others)), *other_plants, *_default_entries()]
+    shown = [entry for entry in found if not entry.key.startswith(others)]
+    return [*shown, *other_plants, *motions, *_default_entries()]
 
 
 def render(rows: Iterable[CatalogueRow] = ()) -> str:

@@ -18,7 +18,7 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 
 from emulator.machine_errors import MachineError, explain
-from emulator.machine_settings import check_command_name, merged_settings, usual_settings
+from emulator.machine_settings import check_command_name, master_conflicts, merged_settings, usual_settings
 from emulator.machine_tables import (
     LOWEST_BAUD,
     REALISTIC_TIMING,
@@ -26,16 +26,19 @@ from emulator.machine_tables import (
     Encoder,
     EncoderInput,
     ErrorLevels,
+    Following,
     Identity,
     InputsOutputs,
     Limits,
     Memory,
     Options,
+    Paths,
     RateRow,
     Rp240,
     Serial,
     Servo,
     Timing,
+    Triggers,
     Wires,
 )
 from emulator.plant_tables import (
@@ -107,10 +110,12 @@ class Machine(Table, frozen=True):
         bool, known("DEL of a program that does not exist is refused", "assumed", "M", "host scripts DEL before DEF")
     ] = False
     limits: Annotated[Limits, known("field ranges", "assumed", "M")] = Limits()
+    paths: Annotated[Paths, known("contour paths", "assumed", "L")] = Paths()
     memory: Annotated[Memory, known("user memory", "documented", source="UG 74, 83")] = Memory()
     timing: Annotated[Timing, known("how fast commands and programs run", "assumed", "L")] = Timing()
     servo: Annotated[Servo, known("the servo processor", "assumed", "L")] = Servo()
     encoder: Annotated[EncoderInput, known("the encoder inputs", "assumed", "L")] = EncoderInput()
+    following: Annotated[Following, known("how masters are measured", "assumed", "M")] = Following()
     axis1: Annotated[Axis, known("what is connected to axis 1", "design")] = Axis()
     axis2: Annotated[Axis, known("what is connected to axis 2", "design")] = Axis()
     axis3: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
@@ -119,6 +124,7 @@ class Machine(Table, frozen=True):
     axis6: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
     axis7: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
     axis8: Annotated[Axis, known("axes 3 to 8: those of an RMC", "design")] = Axis()
+    triggers: Annotated[Triggers, known("what the trigger inputs are connected to", "design")] = Triggers()
     wires: Annotated[Wires, known("contacts common to the unit", "design")] = Wires()
     rmc: Annotated[Rmc, known("a Delta RMC in place of the OEM6250", "design")] = Rmc()
 
@@ -248,6 +254,8 @@ def _conflicts(machine: Machine) -> list[tuple[str, str, str]]:
         *_plant_conflicts(machine),
         *_axis_conflicts(machine),
         *rmc_conflicts(machine.rmc, tuple(axis.rmc for axis in machine.all_axes)),
+        *master_conflicts(machine.defaults, ani_fitted=machine.options.ani),
+        *_mark_conflicts(machine),
     ]
 
 
@@ -297,6 +305,14 @@ def _travel_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
             found = f"{travel.home_to_rev:g}"
             conflicts.append((f"{key}.home_to_rev", found, f"above home_from_rev, {travel.home_from_rev:g}"))
     return conflicts
+
+
+def _mark_conflicts(machine: Machine) -> list[tuple[str, str, str]]:
+    return [
+        (f"triggers.{letter}.every_rev", f"{trigger.every_rev:g}", f"0 or above width_rev, {trigger.width_rev:g}")
+        for letter, trigger in (("a", machine.triggers.a), ("b", machine.triggers.b))
+        if trigger.every_rev != 0.0 and not trigger.every_rev > trigger.width_rev
+    ]
 
 
 def _plant_conflicts(machine: Machine) -> list[tuple[str, str, str]]:

@@ -117,7 +117,7 @@ def _tags(node: Any) -> tuple[str, ...]:
 def _keys(node: Any, steps: list[str], top: Any) -> str:
     names = [field.encode_name for field in getattr(node, "fields", ())]
     close = nearest(steps[-1], names) or _elsewhere(steps, top)
-    listed = "keys " + ", ".join(names)
+    listed = "keys " + ", ".join(names) if names else "no keys besides kind"
     return f"{listed} (did you mean {close}?)" if close else listed
 
 
@@ -129,7 +129,8 @@ def nearest(wrong: str, names: Iterable[str]) -> str | None:
 
 def _elsewhere(steps: list[str], top: Any) -> str | None:
     """The dotted key of a key that belongs into another table; of the same axis, if there are several."""
-    found = [path for path in _paths(top) if path.rpartition(".")[2] == steps[-1]]
+    own = _dotted(steps)
+    found = [path for path in _paths(top) if path.rpartition(".")[2] == steps[-1] and path != own]
     return next((path for path in found if path.startswith(steps[0] + ".")), found[0] if found else None)
 
 

@@ -9,6 +9,8 @@ found in the file and not when the unit starts.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
+from decimal import Decimal
 from difflib import get_close_matches
 from typing import Any, Final
 
@@ -18,6 +20,7 @@ from protocol.catalogue import CommandRow, commands, rows
 from protocol.command import parse_command
 from protocol.errors import INVALID_DATA, CommandError
 from protocol.fields import checked_number, place_mask, place_values, range_of
+from protocol.masters import check_masters, read_master
 
 DEFAULT_SETTINGS: Final[dict[str, tuple[str, Provenance, str, str]]] = {
     "ECHO": ("1", "assumed", "H", ""),
@@ -119,3 +122,23 @@ def _is_scalar(value: Any) -> bool:
 
 def _scalar_text(value: str | int | float) -> str:
     return str(int(value)) if isinstance(value, bool) else str(value)
+
+
+def master_conflicts(settings: Mapping[str, str], *, ani_fitted: bool) -> list[tuple[str, str, str]]:
+    """What is wrong with FOLMAS of `[defaults]` given SFB there: key, what was found, what is allowed."""
+    if "FOLMAS" not in settings:
+        return []
+    feedback = _whole_fields("SFB", settings["SFB"])
+    try:
+        wanted = _whole_fields("FOLMAS", settings["FOLMAS"])
+        check_masters([read_master(value, axes=AXES, ani_fitted=ani_fitted) for value in wanted], feedback)
+    except CommandError:
+        allowed = "sign, axis of the master, 1 encoder, 2 ANI (option) or 4 commanded position; not what is its own"
+        return [("defaults.FOLMAS", repr(settings["FOLMAS"]), allowed)]
+    return []
+
+
+def _whole_fields(name: str, text: str) -> list[int]:
+    """The fields of a setting as whole numbers, 0 for what is not given."""
+    values = place_values(parse_command(name + text), AXES)
+    return [int(value) if isinstance(value, Decimal) else 0 for value in values]

@@ -17,6 +17,7 @@ from typing import Annotated, Final, Literal
 
 import msgspec
 
+from emulator.encoder_motion_tables import EncoderMotionTable, Shaft
 from emulator.plant_tables import PlantTable, VelocityDrive
 from emulator.rmc.tables import RmcAxis
 from emulator.table_fields import Table, known
@@ -56,7 +57,7 @@ class Rp240(Table, frozen=True):
 class Options(Table, frozen=True):
     """What the order code of the unit includes."""
 
-    following: Annotated[bool, known("Following commands fitted", "assumed", "M", acts=False)] = True
+    following: Annotated[bool, known("Following fitted; without it its commands are not implemented", "assumed", "M")] = True
     ani: Annotated[bool, known("analog feedback fitted; without it SFB2 is refused", "assumed", "M")] = False
     expanded_memory: Annotated[bool, known("-M expanded memory fitted", "assumed", "M", acts=False)] = False
 
@@ -188,6 +189,21 @@ class Limits(Table, frozen=True):
     ] = Range(minimum=0.00025, maximum=24_999_975.0)
 
 
+class Paths(Table, frozen=True):
+    """Contour paths."""
+
+    radius_tolerance: Annotated[
+        float,
+        known(
+            "counts by which the radii at both ends of an arc may differ where its path has no PRTOL",
+            "assumed",
+            "L",
+            "as much as whole counts make them differ",
+            ge=0.0,
+        ),
+    ] = 2.0
+
+
 class Memory(Table, frozen=True):
     """User memory and its counts."""
 
@@ -218,7 +234,7 @@ class Memory(Table, frozen=True):
     vars: Annotated[int, known("string variables", "documented", source="UG 74", ge=1)] = 25
     string_characters: Annotated[int, known("longest string, characters", "documented", source="UG 74", ge=1)] = 20
     labels: Annotated[int, known("labels", "assumed", "M", ge=1)] = 250
-    compiled: Annotated[int, known("compiled programs", "assumed", "M", ge=1, acts=False)] = 100
+    compiled: Annotated[int, known("compiled programs", "assumed", "M", ge=1)] = 100
     nest_levels: Annotated[int, known("nesting of IF, loops and GOSUB", "assumed", "H", ge=1)] = 16
 
 
@@ -314,6 +330,24 @@ class Servo(Table, frozen=True):
     ssfr_table: Annotated[RateTable, known("update periods", "assumed", "L")] = RateTable()
 
 
+class Following(Table, frozen=True):
+    """How a master is measured, where the guide leaves it open."""
+
+    predictor: Annotated[
+        Literal["two_samples", "one_sample"],
+        known(
+            "over what FPPEN1 measures the master velocity: 2 m(k) - m(k-2), or 3 m(k) - 2 m(k-1)",
+            "inferred",
+            "M",
+            "PG 214: over 2 sample periods",
+        ),
+    ] = "two_samples"
+    filter_order: Annotated[
+        Literal[1, 2],
+        known("order of the low-pass of FFILT, its corner (-3 dB) kept", "assumed", "M", "corners PG 215"),
+    ] = 1
+
+
 class EncoderInput(Table, frozen=True):
     """The encoder input stage, common to both axes."""
 
@@ -396,6 +430,7 @@ class Axis(Table, frozen=True):
 
     plant: Annotated[PlantTable, known("drive, motor and load", "design")] = VelocityDrive()
     encoder: Annotated[Encoder, known("the encoder", "design")] = Encoder()
+    encoder_motion: Annotated[EncoderMotionTable, known("what turns the encoder", "design")] = Shaft()
     wires: Annotated[AxisWires, known("its contacts", "design")] = AxisWires()
     travel: Annotated[Travel, known("its switches along the travel", "design")] = Travel()
     ani: Annotated[AnalogSensor, known("its analog position sensor", "design")] = AnalogSensor()
@@ -403,6 +438,30 @@ class Axis(Table, frozen=True):
 
 
 Volts = Annotated[float, msgspec.Meta(ge=0.0, le=2.5)]
+
+
+class Trigger(Table, frozen=True):
+    """What a trigger input is connected to: a contact alone, or a sensor that sees marks on an axis.
+
+    Positions are revolutions of the load from where it stands at start, or of what else turns the encoder of the axis;
+    over a mark the contact changes over.
+    """
+
+    marks_on: Annotated[
+        Literal["none", "axis1", "axis2"], known("axis whose marks the trigger's sensor sees", "design")
+    ] = "none"
+    at_rev: Annotated[float, known("where a mark begins, rev", "design", gt=-1e9, lt=1e9)] = 0.0
+    every_rev: Annotated[
+        float, known("from mark to mark, either way, rev; 0 = one mark only", "design", ge=0.0, le=1e9)
+    ] = 0.0
+    width_rev: Annotated[float, known("width of a mark, rev", "design", gt=0.0, le=1e9)] = 0.01
+
+
+class Triggers(Table, frozen=True):
+    """The trigger inputs."""
+
+    a: Annotated[Trigger, known("TRG-A", "design")] = Trigger()
+    b: Annotated[Trigger, known("TRG-B", "design")] = Trigger()
 
 
 class Wires(Table, frozen=True):

@@ -13,7 +13,7 @@ from emulator.controller import Controller
 from emulator.controller import words as status
 from emulator.controller.wires.panel_commands import press, release
 from emulator.controller.wires.thumbwheel_bank import dial
-from emulator.engine import EncoderWiring
+from emulator.engine import EncoderMotion, EncoderWiring
 from emulator.engine.trace import Source
 from emulator.faults import FAULTS, Fault
 from emulator.parameters import Parameter, Value, checked
@@ -199,8 +199,45 @@ AXIS_SIGNALS: tuple[AxisSignal, ...] = (
         lambda c, i: c.engine.ani_volts(i),
         None,
     ),
+    AxisSignal(
+        "master.position",
+        "position in the master cycle",
+        "counts",
+        lambda c, i: c.engine.master_position(i),
+        "cycle_counts",
+    ),
+    AxisSignal(
+        "master.cycle",
+        "master cycles finished since the last restart",
+        "cycles",
+        lambda c, i: c.engine.master_cycle_number(i),
+        "cycle_number",
+    ),
+    AxisSignal(
+        "master.velocity",
+        "velocity of the filtered master",
+        "counts/s",
+        lambda c, i: c.engine.master_velocity(i),
+        "master_velocity",
+    ),
+    AxisSignal(
+        "slave.position",
+        "commanded position of the slave as reported",
+        "counts",
+        lambda c, i: c.engine.slave_position(i),
+        "commanded_counts",
+        minus="offset_counts",
+    ),
+    AxisSignal("slave.shift", "net phase shift", "counts", lambda c, i: c.engine.net_shift(i), "shift_counts"),
+    AxisSignal(
+        "slave.ratio",
+        "ratio of the slave at the last system update",
+        "counts/count",
+        lambda c, i: c.engine.present_ratio(i),
+        "ratio_now",
+    ),
     AxisSignal("drive", "the drive is on", "", lambda c, i: c.engine.is_enabled(i), "enabled"),
-    AxisSignal("moving", "a profile is running", "", lambda c, i: c.engine.is_moving(i), "profile_active"),
+    AxisSignal("moving", "a profile is running", "", lambda c, i: c.engine.is_moving(i), "profile_active", mask=3),
     AxisSignal("settling", "waiting for the target zone", "", lambda c, i: c.engine.is_settling(i), "settling"),
     AxisSignal("status", "AS, bit 1 first", "", status.axis_status, "status"),
 )
@@ -265,6 +302,35 @@ def _analog_signal(channel: int) -> Signal:
     )
 
 
+def _trigger_signals(trigger_index: int, letter: str) -> list[Signal]:
+    def edge_s(controller: Controller) -> float:
+        edge_ns = controller.engine.captured_at_ns(trigger_index)
+        return -1.0 if edge_ns is None else edge_ns / NS_PER_S
+
+    return [
+        Signal(f"capture.{letter}.time", f"when trigger {letter} last latched positions; -1 = never", "s", edge_s),
+        Signal(
+            f"capture.{letter}.count",
+            f"captures of trigger {letter} since power-up",
+            "captures",
+            lambda c: c.engine.capture_count(trigger_index),
+        ),
+    ]
+
+
+def _passing_signal(axis_index: int) -> Signal:
+    def passed_s(controller: Controller) -> float:
+        passed_ns = controller.on_position[axis_index].passed_ns
+        return -1.0 if passed_ns is None else passed_ns / NS_PER_S
+
+    return Signal(
+        f"output_on_position.{axis_index + 1}.time",
+        f"when axis {axis_index + 1} last passed its output position, with an on-time; -1 = never",
+        "s",
+        passed_s,
+    )
+
+
 def describe_signals(controller: Controller) -> dict[str, Signal]:
     """Every signal a unit has, by name."""
     signals = {signal.name: signal for signal in UNIT_SIGNALS}
@@ -276,13 +342,29 @@ def describe_signals(controller: Controller) -> dict[str, Signal]:
         signals[f"wire.{wire}"] = _wire_signal(controller, wire)
     outputs = [_output_signal(number) for number in range(1, controller.output_functions.count + 1)]
     analog = [_analog_signal(channel) for channel in range(1, len(controller.wiring.analog_volts) + 1)]
-    for signal in (*outputs, *analog):
+    triggers = [each for index, letter in enumerate("ab") for each in _trigger_signals(index, letter)]
+    passings = [_passing_signal(axis_index) for axis_index in range(controller.settings.axes)]
+    for signal in (*outputs, *analog, *triggers, *passings):
         signals[signal.name] = signal
     return signals
 
 
 def _set_wire(controller: Controller, name: str, closed: bool) -> None:
     controller.wiring.set(name, closed=closed)
+
+
+def _press_trigger(controller: Controller, trigger: str, at: float, hold: float) -> None:
+    """Errors: KeyError for a trigger that is not there, ValueError for a time that is over or no hold."""
+    wire = f"trigger.{trigger.lower()}"
+    resting = controller.wiring.closed_at_rest(wire)
+    press_ns = round(at * NS_PER_S) if at else controller.now_ns
+    if press_ns < controller.now_ns:
+        raise ValueError(f"{at} s is over; it is {controller.now_ns / NS_PER_S} s")
+    if not hold > 0.0:
+        raise ValueError(f"hold must be above 0 s, not {hold}")
+    controller.alarms.at(press_ns, lambda: controller.wiring.set(wire, closed=not resting))
+    controller.alarms.at(press_ns + round(hold * NS_PER_S), lambda: controller.wiring.set(wire, closed=resting))
+    controller.alarms.carry_out(controller.now_ns)
 
 
 def _set_analog(controller: Controller, channel: int, volts: float) -> None:
@@ -332,6 +414,20 @@ def _wire_encoder(controller: Controller, axis: int, wiring: str) -> None:
     if wiring not in ENCODER_WIRINGS:
         raise ValueError(f"wiring must be {' or '.join(ENCODER_WIRINGS)}, not {wiring!r}")
     controller.engine.wire_encoder(_axis_index(controller, axis), ENCODER_WIRINGS[wiring])
+
+
+def _drive_encoder(controller: Controller, axis: int, velocity: float, ramp: float) -> None:
+    engine, axis_index = controller.engine, _axis_index(controller, axis)
+    present = engine.encoder_velocity(axis_index)
+    engine.move_encoder(axis_index, EncoderMotion(velocity, start_velocity_counts_s=present, ramp_s=ramp))
+
+
+def _turn_encoder(controller: Controller, axis: int, counts: int, velocity: float) -> None:
+    controller.engine.move_encoder(_axis_index(controller, axis), EncoderMotion.by(counts, velocity))
+
+
+def _release_encoder(controller: Controller, axis: int) -> None:
+    controller.engine.release_encoder(_axis_index(controller, axis))
 
 
 def _slip_encoder(controller: Controller, axis: int, counts: int) -> None:
@@ -398,6 +494,16 @@ ACTIONS: Mapping[str, Action] = {
             _set_wire,
         ),
         Action(
+            "press_trigger",
+            "change a trigger's contact over at an exact time, between servo samples too, and back again",
+            (
+                Parameter("trigger", str, "A or B"),
+                Parameter("at", float, "virtual time since power-up of the emulator; 0 = now", unit="s", default=0.0),
+                Parameter("hold", float, "until it changes back", unit="s", default=0.01),
+            ),
+            _press_trigger,
+        ),
+        Action(
             "set_analog",
             "set the voltage of a joystick channel",
             (
@@ -418,6 +524,27 @@ ACTIONS: Mapping[str, Action] = {
             (Parameter("axis", int, "1 or 2"),),
             _release_ani,
         ),
+        Action(
+            "drive_encoder",
+            "turn an encoder by something else than its motor (a conveyor, say), from now on at a velocity",
+            (
+                AXIS,
+                Parameter("velocity", float, "negative turns it backwards, 0 stops it", unit="counts/s"),
+                Parameter("ramp", float, "time until it has that velocity", unit="s"),
+            ),
+            _drive_encoder,
+        ),
+        Action(
+            "turn_encoder",
+            "turn an encoder by some counts by something else than its motor; it rests then",
+            (
+                AXIS,
+                Parameter("counts", int, "forwards positive", unit="counts"),
+                Parameter("velocity", float, "magnitude; 0 turns it at once", unit="counts/s"),
+            ),
+            _turn_encoder,
+        ),
+        Action("release_encoder", "let the axis turn its encoder again", (AXIS,), _release_encoder),
         Action("press_key", "press a key of the operator panel", (Parameter("key", str, "its label"),), press),
         Action(
             "release_key",

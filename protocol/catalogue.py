@@ -21,7 +21,7 @@ Kind = Literal["setting", "report", "action", "flow", "operator", "operand"]
 FieldType = Literal[
     "real", "int", "binary", "bit-pattern", "name", "string", "mixed", "expression", "operand", "operator", "none"
 ]
-Scale = Literal["acceleration", "velocity", "distance", "master", "path_acceleration", "path_velocity"]
+Scale = Literal["acceleration", "velocity", "distance", "master", "path_acceleration", "path_velocity", "path_distance"]
 NumberFormat = Literal["fixed", "signed", "shortest"]
 Prefixable = Literal["either", "buffered", "immediate"]
 ReplyShape = Literal["numbers", "mask", "word", "limits", "name", "assignment", "text", "table", "lines", "none"]

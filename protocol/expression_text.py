@@ -34,6 +34,11 @@ MAX_EXPRESSION = 80
 INDEXED_OPERANDS = frozenset({"VAR", "VARB", "DAT", "TW", "READ"})
 """Operands followed by a number: which variable, data program, thumbwheel set, prompt string."""
 
+CAPTURED_OPERANDS = frozenset({"PCE", "PCC", "PCA"})
+"""Operands that may end in the letter of a trigger, which becomes their index: A is 1, B is 2."""
+
+TRIGGER_LETTERS = "AB"
+
 SETTING_OPERANDS = frozenset({"A", "AD", "V", "D"})
 """Settings that can be read as operands."""
 
@@ -209,6 +214,8 @@ class _Reader:
         axis, name, index, holder, bit = self._expect(_OPERAND).groups()
         if name == "PI" and not (axis or index or holder or bit):
             return PI
+        if name[:-1] in CAPTURED_OPERANDS and name[-1] in TRIGGER_LETTERS and not (index or holder):
+            name, index = name[:-1], str(TRIGGER_LETTERS.index(name[-1]) + 1)
         number = index or holder
         operand = Operand(
             name,
@@ -235,7 +242,7 @@ class _Reader:
 def _known(operand: Operand) -> Operand:
     name = operand.name
     known = name in INDEXED_OPERANDS or name in SETTING_OPERANDS or name in catalogue.operands()
-    indexed = operand.index is not None
+    indexed = operand.index is not None and (name not in CAPTURED_OPERANDS or operand.indirect)
     if not known or indexed != (name in INDEXED_OPERANDS) or (operand.bit is not None and not is_bits(operand)):
         raise CommandError(INCORRECT_DATA)
     return operand

@@ -21,7 +21,7 @@ NO_PROGRAM_DEFINED = "NO PROGRAM DEFINED"
 
 _AXIS = re.compile(r"\d*", re.ASCII)
 _TRIGGER_LETTERS = ("A", "B")
-_UNSCALED_COUNTS = ("distance", "master")
+_UNSCALED_COUNTS = ("distance", "master", "path_distance")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1818,27 +1818,27 @@ class UnitActions(BlockingFace):
         self._run(values.write(self._session, "JOYZ", self._axis, text))
 
     def line_segment(self, *fields: Number) -> None:
-        """Line segment (`PLIN`)."""
+        """Line segment (`PLIN`). Units: counts. Range -999999999 to 999999999."""
         self._run(values.write(self._session, "PLIN", self._axis, *fields))
 
     def local_coordinate_origin(self, *fields: Number) -> None:
-        """Local coordinate origin (`PLC`)."""
+        """Local coordinate origin (`PLC`). Units: counts. Range -999999999 to 999999999."""
         self._run(values.write(self._session, "PLC", self._axis, *fields))
 
     def local_coordinate_system_enable(self, value: Number) -> None:
-        """Local coordinate system enable (`PL`)."""
+        """Local coordinate system enable (`PL`). Range 0 to 1."""
         self._run(values.write(self._session, "PL", self._axis, value))
 
     def origin_arc_clockwise(self, *fields: Number) -> None:
-        """Origin arc, clockwise (`PARCOM`)."""
+        """Origin arc, clockwise (`PARCOM`). Units: counts. Range -999999999 to 999999999."""
         self._run(values.write(self._session, "PARCOM", self._axis, *fields))
 
     def origin_arc_counter_clockwise(self, *fields: Number) -> None:
-        """Origin arc, counter-clockwise (`PARCOP`)."""
+        """Origin arc, counter-clockwise (`PARCOP`). Units: counts. Range -999999999 to 999999999."""
         self._run(values.write(self._session, "PARCOP", self._axis, *fields))
 
     def path_absolute_mode(self, value: Number) -> None:
-        """Path absolute mode (`PAB`)."""
+        """Path absolute mode (`PAB`). Range 0 to 1."""
         self._run(values.write(self._session, "PAB", self._axis, value))
 
     def path_output_pattern(self, text: str) -> None:
@@ -1854,15 +1854,15 @@ class UnitActions(BlockingFace):
         self._run(values.write(self._session, "DPCUR", self._axis, *fields))
 
     def radius_arc_clockwise(self, *fields: Number) -> None:
-        """Radius arc (M sense) (`PARCM`)."""
+        """Radius arc (M sense) (`PARCM`). Units: counts. Range -999999999 to 999999999."""
         self._run(values.write(self._session, "PARCM", self._axis, *fields))
 
     def radius_arc_counter_clockwise(self, *fields: Number) -> None:
-        """Radius arc (P sense) (`PARCP`)."""
+        """Radius arc (P sense) (`PARCP`). Units: counts. Range -999999999 to 999999999."""
         self._run(values.write(self._session, "PARCP", self._axis, *fields))
 
     def radius_tolerance(self, value: Number) -> None:
-        """Radius tolerance (`PRTOL`)."""
+        """Radius tolerance (`PRTOL`). Units: counts. Range 0 to 999999999."""
         self._run(values.write(self._session, "PRTOL", self._axis, value))
 
     def reset(self) -> None:
@@ -1890,7 +1890,7 @@ class UnitActions(BlockingFace):
         self._run(values.write(self._session, "SGSET", self._axis, value))
 
     def set_contour_axes(self, *fields: Number) -> None:
-        """Set contour axes (`PAXES`)."""
+        """Set contour axes (`PAXES`). Range 1 to 2."""
         self._run(values.write(self._session, "PAXES", self._axis, *fields))
 
     def set_data_pointer(self, *fields: Number) -> None:
@@ -1934,5 +1934,5 @@ class UnitActions(BlockingFace):
         self._run(values.write(self._session, "PUCOMP", self._axis, " " + name))
 
     def work_coordinate_origin(self, *fields: Number) -> None:
-        """Work coordinate origin (`PWC`)."""
+        """Work coordinate origin (`PWC`). Units: counts. Range -999999999 to 999999999."""
         self._run(values.write(self._session, "PWC", self._axis, *fields))

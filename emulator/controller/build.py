@@ -7,9 +7,21 @@ from decimal import Decimal
 
 from emulator.controller.changes import Changes
 from emulator.controller.settings import Settings
-from emulator.engine import AnalogSensor, AxisHardware, EncoderTraits, Engine, ServoRates, Travel, UnitFactors
+from emulator.encoder_motion_tables import engine_motion
+from emulator.engine import (
+    AnalogSensor,
+    AxisHardware,
+    EncoderTraits,
+    Engine,
+    MarkSensor,
+    MasterMeasurement,
+    ServoRates,
+    Travel,
+    UnitFactors,
+)
 from emulator.engine.machine_code import OnBuild
 from emulator.machine import Axis, Machine
+from emulator.machine_tables import Trigger
 from emulator.plant_tables import engine_plant
 
 
@@ -27,7 +39,7 @@ def build_settings(machine: Machine, changes: Changes) -> Settings:
 
 def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None) -> Engine:
     """The servo engine with the machine's axes."""
-    return Engine(
+    engine = Engine(
         [
             axis_hardware(axis, max_rate_counts_s=machine.encoder.max_rate, ani_fitted=machine.options.ani)
             for axis in machine.axes
@@ -38,7 +50,22 @@ def build_engine(machine: Machine, settings: Settings, on_build: OnBuild | None)
         unit_factors=unit_factors(machine),
         drive_off_to_zero=machine.drive_off_output == "zero",
         output_delay_s=machine.servo.output_delay_us * 1e-6,
+        measurement=MasterMeasurement(
+            one_sample_predictor=machine.following.predictor == "one_sample",
+            filter_order=machine.following.filter_order,
+        ),
     )
+    for trigger_index, trigger in enumerate((machine.triggers.a, machine.triggers.b)):
+        engine.fit_mark_sensor(trigger_index, mark_sensor(trigger))
+    return engine
+
+
+def mark_sensor(trigger: Trigger) -> MarkSensor | None:
+    """The sensor at a trigger, in the engine's terms."""
+    if trigger.marks_on == "none":
+        return None
+    axis_index = int(trigger.marks_on[-1]) - 1
+    return MarkSensor(axis_index, trigger.at_rev, every_rev=trigger.every_rev, width_rev=trigger.width_rev)
 
 
 def unit_factors(machine: Machine) -> UnitFactors:
@@ -80,4 +107,5 @@ def axis_hardware(axis: Axis, *, max_rate_counts_s: float = math.inf, ani_fitted
             noise_seed=encoder.noise_seed,
             max_rate_counts_s=max_rate_counts_s,
         ),
+        motion=engine_motion(axis.encoder_motion),
     )

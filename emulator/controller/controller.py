@@ -17,12 +17,14 @@ from emulator.controller.alarms import Alarms
 from emulator.controller.build import build_engine, build_settings, rates_in_force
 from emulator.controller.changes import KEPT_COMMANDS, Changes
 from emulator.controller.communications import answers_to, framing_in_force, is_neighbours_reply
+from emulator.controller.compiled.store import CompiledPrograms
 from emulator.controller.dispatch import handles
 from emulator.controller.faults import Faults
 from emulator.controller.interpreter import Interpreter
 from emulator.controller.line import InstantLine, build_line
 from emulator.controller.line.disturbances import Disturbances
 from emulator.controller.motion.feedback import FeedbackSources
+from emulator.controller.motion.following.moves import RatioMoves
 from emulator.controller.motion.gain_sets import SavedGains
 from emulator.controller.motion.homing import Homing
 from emulator.controller.motion.jogging import Jogging
@@ -30,10 +32,15 @@ from emulator.controller.motion.joystick import Joystick
 from emulator.controller.motion.pausing import Pausing
 from emulator.controller.motion.stopping import end_of_travel, stop_axes
 from emulator.controller.output import Output
+from emulator.controller.paths.motion import Paths
 from emulator.controller.programs.debugging import Debugging
 from emulator.controller.programs.on_conditions import OnConditions
 from emulator.controller.programs.program_select import ProgramSelect, security_locked
 from emulator.controller.programs.store import Programs
+from emulator.controller.registration.captures import Captures
+from emulator.controller.registration.held_starts import HeldStarts
+from emulator.controller.registration.registering import Registration
+from emulator.controller.registration.trigger_functions import TriggerFunctions
 from emulator.controller.variables.data_programs import DataPrograms
 from emulator.controller.variables.operands import Operands
 from emulator.controller.variables.store import Variables
@@ -98,6 +105,7 @@ class Controller:
             max_labels=machine.memory.labels,
             changes=self.changes,
         )
+        self.compiled = CompiledPrograms(self)
         self.debugging = Debugging()
         self.on_conditions = OnConditions()
         self.variables = Variables(
@@ -129,9 +137,15 @@ class Controller:
         self.drive_faulted = [False] * self.settings.axes
         self.gain_sets: dict[int, list[SavedGains]] = {}
         self.feedback = FeedbackSources(self.settings)
+        self.ratio_moves = RatioMoves(self)
         self.homing = Homing(self)
         self.jogging = Jogging(self)
         self.joystick = Joystick(self)
+        self.paths = Paths(self)
+        self.held_starts = HeldStarts(self)
+        self.captures = Captures(self)
+        self.registration = Registration(self)
+        self.trigger_functions = TriggerFunctions(self)
         self._enable_lost = False
         self._lines: dict[int, LineAssembler] = {}
         self._transmitter = self.line.transmitter
@@ -151,7 +165,7 @@ class Controller:
         moving = any(self.engine.is_moving(axis_index) for axis_index in range(self.settings.axes))
         held_back = self.engine.time_ns < self.disturbances.next_ns < NEVER
         waits = self.alarms.pending or self.line.busy or held_back
-        return moving or self.interpreter.busy or waits
+        return moving or self.interpreter.busy or waits or self.held_starts.pending
 
     def input_full(self, channel: int) -> bool:
         """So many commands of this connection wait that more of its input should stay on the wire."""
@@ -317,7 +331,10 @@ class Controller:
         """Assert the shutdown output of an axis: loop open, motion given up."""
         self.homing.abort(axis_index)
         self.joystick.leave(axis_index)
+        self.held_starts.forget((axis_index,))
+        self.registration.forget(axis_index)
         self.engine.disable(axis_index)
+        self.paths.lose_axis(axis_index)
         self.note_drive(axis_index, on=False)
 
     def note_drive(self, axis_index: int, *, on: bool) -> None:
@@ -335,6 +352,8 @@ class Controller:
             AxisStatus.JOG_MODE: self.settings.flag("JOG", axis_index),
             AxisStatus.JOYSTICK_MODE: self.settings.flag("JOY", axis_index),
             AxisStatus.DRIVE_FAULTED: self.drive_faulted[axis_index],
+            AxisStatus.GOWHEN_PENDING: self.held_starts.holds(axis_index),
+            AxisStatus.REGISTRATION_MOVE_COMMANDED: self.registration.commanded(axis_index),
         }
         self.engine.set_extra_status(axis_index, sum(bit.mask for bit, on in modes.items() if on))
 
@@ -387,16 +406,22 @@ class Controller:
             axis_events = self.engine.axis_events(axis_index)
             if axis_events:
                 self._act_on_axis(axis_index, axis_events)
+        self.compiled.look()
 
     def _act_on_axis(self, axis_index: int, events: Event) -> None:
         events = self.homing.act_on(axis_index, events)
         if events & Event.VALUE:
             self.on_position[axis_index].check()
+            self.held_starts.look()
+        if events & Event.TRIGGER:
+            self.captures.note(axis_index)
         if events & Event.HARD_LIMIT:
             end_of_travel(self, axis_index, "LHAD", ErrorStatus.HARD_LIMIT_HIT)
         if events & Event.SOFT_LIMIT:
             end_of_travel(self, axis_index, "LSAD", ErrorStatus.SOFT_LIMIT_HIT)
         if events & Event.POSITION_ERROR:
+            self.paths.lose_axis(axis_index)
+            self.held_starts.forget((axis_index,))
             self.note_drive(axis_index, on=False)
             self.faults.latch(ErrorStatus.POSITION_ERROR_EXCEEDED)
         if events & Event.SETTLE_TIMEOUT:
@@ -452,11 +477,18 @@ class Controller:
         self.timer = Timer()
         self.drive_faulted = [False] * self.settings.axes
         self._enable_lost = not self.wiring.enable_grounded
+        self.compiled.clear()
         self.data_programs.reset()
         self.feedback.reset()
+        self.ratio_moves.reset()
         self.homing.reset()
         self.jogging.reset()
         self.joystick.reset()
+        self.paths.reset()
+        self.held_starts.reset()
+        self.captures.power_up()
+        self.registration.reset()
+        self.trigger_functions.reset()
         self._reset_inputs_and_outputs()
         self.engine.power_up()
         dispatch.apply_all(self)

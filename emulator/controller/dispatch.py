@@ -58,7 +58,7 @@ def is_implemented(command: Command) -> bool:
     row = command.row
     if row is None or command.name in _handlers:
         return True
-    return row.kind == "setting" and row.reply in SETTING_REPLIES and row.name not in NEEDS_ITS_OWN_HANDLER
+    return row.kind == "setting" and row.reply in SETTING_REPLIES
 
 
 SETTING_REPLIES = frozenset({"numbers", "mask", "word", "name"})
@@ -66,14 +66,10 @@ SETTING_REPLIES = frozenset({"numbers", "mask", "word", "name"})
 SWITCHES_WITHOUT_FUNCTION = frozenset(
     {
         "TRANS",
-        *("FOLMAS", "FOLEN", "RE", "REGSS"),
     }
 )
 """Settings that switch on what this unit does not do yet: their defaults are accepted, anything else is refused rather
 than silently without effect."""
-
-NEEDS_ITS_OWN_HANDLER = frozenset({"TRGFN"})
-"""Settings whose fields are not the plain ones their row's reply suggests."""
 
 
 def carry_out(controller: Controller, command: Command) -> Lines:
@@ -87,6 +83,8 @@ def carry_out(controller: Controller, command: Command) -> Lines:
         controller.programs.call(command.name)
         return None
     if row.name == "TPM" and not controller.machine.answer_tpm:
+        raise CommandError(COMMAND_NOT_IMPLEMENTED)
+    if row.group == "following" and not controller.machine.options.following:
         raise CommandError(COMMAND_NOT_IMPLEMENTED)
     check_axis(command, controller.settings.axes_in_use)
     if command.substituted:

@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING
 from emulator.controller import dispatch
 from emulator.controller.command_times import CommandTimes
 from emulator.controller.faults import branch_abandons
+from emulator.controller.motion.following.go_wait import FollowingWait
 from emulator.controller.programs.execution import Cause
 from emulator.controller.programs.preparation import OPENERS, Prepared
 from emulator.controller.programs.runner import Runner
@@ -340,7 +341,7 @@ class Interpreter:
 
     def _disarm(self) -> None:
         """The engine need not watch a condition that nobody waits for any longer."""
-        if isinstance(self.wait, ConditionWait):
+        if isinstance(self.wait, ConditionWait | FollowingWait):
             self._controller.engine.clear_watches()
 
     def _finish(self, entry: Entry, lines: dispatch.Lines) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from emulator.controller import words
 from emulator.controller.dispatch import Lines, handles
+from emulator.controller.motion.following.status import following_status
 from emulator.controller.readings import reading_in_user_units, reading_text
 from emulator.controller.settings import bit_of
 from protocol.catalogue import CommandRow, status_words
@@ -34,8 +35,17 @@ _READING_OF_REPORT = {
     "TDAC": "DAC",
     "TANI": "PANI",
     "TPANI": "PANI",
+    "TPMAS": "PMAS",
+    "TNMCY": "NMCY",
+    "TVMAS": "VMAS",
+    "TPSLV": "PSLV",
+    "TPSHF": "PSHF",
 }
-_AXIS_WORDS: dict[str, AxisWord] = {"TAS": words.axis_status, "TASX": words.extended_axis_status}
+_AXIS_WORDS: dict[str, AxisWord] = {
+    "TAS": words.axis_status,
+    "TASX": words.extended_axis_status,
+    "TFS": following_status,
+}
 _UNIT_WORDS: dict[str, UnitWord] = {
     "TSS": words.system_status,
     "TER": words.error_status,
@@ -49,6 +59,7 @@ _UNIT_WORDS: dict[str, UnitWord] = {
 _AXIS_TABLES: dict[str, tuple[str, AxisWord]] = {
     "TASF": ("AS", words.axis_status),
     "TASXF": ("ASX", words.extended_axis_status),
+    "TFSF": ("FS", following_status),
 }
 _UNIT_TABLES: dict[str, tuple[str, UnitWord]] = {
     "TSSF": ("SS", words.system_status),
@@ -70,7 +81,10 @@ def _row(command: Command) -> CommandRow:
 
 @handles(*_READING_OF_REPORT)
 def report_reading(controller: Controller, command: Command) -> Lines:
-    """Positions, velocities and the analogue output of the axes. Without the ANI option TANI and TPANI are 0."""
+    """Positions, velocities and the analogue output of the axes, and what masters do.
+
+    Without the ANI option TANI and TPANI are 0, without a master TPMAS, TNMCY and TVMAS.
+    """
     row = _row(command)
     name = _READING_OF_REPORT[row.name]
     indexes = axis_indexes(command, controller.settings.axes_in_use)
@@ -79,7 +93,7 @@ def report_reading(controller: Controller, command: Command) -> Lines:
 
 @handles(*_AXIS_WORDS)
 def report_axis_word(controller: Controller, command: Command) -> Lines:
-    """TAS, TASX: one line an axis; with ``.n`` the digit of each axis asked for."""
+    """TAS, TASX, TFS: one line an axis; with ``.n`` the digit of each axis asked for."""
     row = _row(command)
     read = _AXIS_WORDS[row.name]
     indexes = axis_indexes(command, controller.settings.axes_in_use)
@@ -101,7 +115,7 @@ def report_unit_word(controller: Controller, command: Command) -> Lines:
 
 @handles(*_AXIS_TABLES)
 def report_axis_table(controller: Controller, command: Command) -> Lines:
-    """TASF, TASXF: one line a bit, one column an axis."""
+    """TASF, TASXF, TFSF: one line a bit, one column an axis."""
     row = _row(command)
     word, read = _AXIS_TABLES[row.name]
     indexes = axis_indexes(command, controller.settings.axes_in_use)

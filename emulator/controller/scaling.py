@@ -11,6 +11,7 @@ from decimal import Decimal
 from typing import NamedTuple
 
 from protocol.catalogue import Scale
+from protocol.fields import Range
 from protocol.numbers import decimals_of_factor, divide
 
 ENCODER_REVOLUTIONS = 0
@@ -29,11 +30,12 @@ FACTOR_COMMANDS: dict[Scale, str] = {
     "master": "SCLMAS",
     "path_acceleration": "PSCLA",
     "path_velocity": "PSCLV",
+    "path_distance": "PSCLD",
 }
 
 RATE_SCALES = frozenset({"acceleration", "velocity", "path_acceleration", "path_velocity"})
 VELOCITY_SCALES = frozenset({"velocity", "path_velocity"})
-DISTANCE_SCALES = frozenset({"distance", "master"})
+DISTANCE_SCALES = frozenset({"distance", "master", "path_distance"})
 
 
 class Quantity(NamedTuple):
@@ -64,6 +66,15 @@ def places_in_force(scale: Scale, factor: int, *, scaled: bool, unscaled_places:
 def largest_distance(places: int) -> Decimal:
     """The distance range at ``places`` decimals: nine digits in all."""
     return Decimal(LARGEST_DISTANCE).scaleb(-places)
+
+
+def distance_range(allowed: Range, factor: int, places: int) -> Range:
+    """What a distance may be in user units: nine digits either way, and at least as many counts as its row asks for."""
+    largest = largest_distance(places)
+    low = Decimal(0)
+    if allowed.minimum is not None and allowed.minimum != 0:
+        low = -largest if allowed.minimum < 0 else divide(allowed.minimum, factor)
+    return Range(low, min(largest, allowed.maximum or largest), places)
 
 
 def largest_velocity(factor: int, encoder_resolution: int) -> Decimal:

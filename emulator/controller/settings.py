@@ -6,6 +6,7 @@ port exist once for each port (PORT chooses which one is meant)."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from decimal import Decimal
 
 from emulator.controller.changes import KEPT_COMMANDS, Changes
@@ -17,8 +18,8 @@ from emulator.controller.scaling import (
     RATE_SCALES,
     VELOCITY_SCALES,
     Quantity,
+    distance_range,
     in_user_units,
-    largest_distance,
     largest_velocity,
     places_in_force,
 )
@@ -43,13 +44,20 @@ PORT_SETTINGS = frozenset({"ECHO", "EOT", "BOT", "EOL", "ERROK", "ERRBAD", "ERRD
 
 HOST_PORT = 1
 
-DISCRETE_VALUES: Mapping[str, frozenset[int]] = {"SSFR": frozenset({1, 2, 4, 8})}
-"""Settings whose range has holes (APEX p.83)."""
+DISCRETE_VALUES: Mapping[str, frozenset[int]] = {
+    "SSFR": frozenset({1, 2, 4, 8}),
+    "VF": frozenset({0}),
+    "FOLRNF": frozenset({0}),
+}
+"""Settings whose range has holes (SSFR: APEX p.83; FOLRNF: 6000 PG p.166, VF taken as the same)."""
 
 ANI_FEEDBACK = 2
 
 ANI_COUNTS_PER_VOLT = 819
 """Unit of velocities and accelerations of an axis with ANI feedback (6000 PG p.211)."""
+
+RATIO_SIDES = frozenset({"FOLRN", "FOLRD"})
+"""Settings that are 1 of whatever unit is in force until they are entered (assumed; FOLRD: 6000 PG p.198)."""
 
 Quantities = Mapping[int, Quantity]
 """Values by field index, each with the scale factor it was entered with."""
@@ -90,7 +98,10 @@ class Settings:
 
     def setting(self, name: str, index: int = 0) -> Quantity:
         """A numeric setting as it was entered."""
-        return self._numbers[self._key(name)][index]
+        quantity = self._numbers[self._key(name)][index]
+        if name in RATIO_SIDES and (name, index) not in self._entered:
+            return Quantity(quantity.value, self.factor("master" if name == "FOLRD" else "distance", index))
+        return quantity
 
     def number(self, name: str, index: int = 0) -> Decimal:
         """An unscaled setting as entered."""
@@ -163,7 +174,7 @@ class Settings:
             return self._numbers[self._key(name)][index].value
         source = followed_setting(name, lambda ramp: (ramp, index) in self._entered)
         factor = self.factor(row.fields.scale, index)
-        return in_user_units(self._numbers[source][index], factor, self.encoder_resolution(index))
+        return in_user_units(self.setting(source, index), factor, self.encoder_resolution(index))
 
     def field_count(self, name: str) -> int:
         """Fields a setting has."""
@@ -274,6 +285,15 @@ class Settings:
         self._note_modes()
         self._changes.count = changes
 
+    def copy(self) -> Settings:
+        """Settings of their own with the same values: what PCOMP lets the commands of a program change."""
+        twin = copy(self)
+        twin._numbers = {key: list(values) for key, values in self._numbers.items()}
+        twin._bits = {key: list(bits) for key, bits in self._bits.items()}
+        twin._names = dict(self._names)
+        twin._entered = set(self._entered)
+        return twin
+
     def _override(self, name: str, fields: str) -> None:
         row = commands().get(name)
         if row is not None and row.kind == "setting":
@@ -335,7 +355,7 @@ class Settings:
         stored = self._numbers[self._key(row.name)]
         for index, quantity in quantities.items():
             stored[index] = quantity
-            if row.name in FOLLOWED:
+            if row.name in FOLLOWED or row.name in RATIO_SIDES:
                 self._note_entered(row.name, index, quantity)
         return list(quantities)
 
@@ -359,7 +379,7 @@ class Settings:
 
     def _note_entered(self, name: str, index: int, quantity: Quantity) -> None:
         """Zero returns a ramp to following its partner (AD0, AA0)."""
-        if quantity.value == 0:
+        if quantity.value == 0 and name in FOLLOWED:
             self._entered.discard((name, index))
         else:
             self._entered.add((name, index))
@@ -386,7 +406,7 @@ class Settings:
         allowed = DISCRETE_VALUES.get(name)
         no_ani = name == "SFB" and number == ANI_FEEDBACK and not self._ani_fitted
         too_slow = name in FOLLOWED and 0 < number < self._acceleration_range[0]
-        if no_ani or too_slow or (allowed is not None and int(number) not in allowed):
+        if no_ani or too_slow or (allowed is not None and number not in allowed):
             raise CommandError(INVALID_DATA if fields == 1 else f"{INVALID_DATA}-FIELD {index + 1}")
 
     def _turned(self, name: str, direction: Direction, index: int) -> Quantity:
@@ -404,9 +424,8 @@ class Settings:
         places = self.places_of(row, index, allowed.places)
         factor = self.factor(scale, index)
         if scale in DISTANCE_SCALES:
-            largest = largest_distance(places)
-            low = -largest if allowed.minimum is not None and allowed.minimum < 0 else Decimal(0)
-            return Range(low, min(largest, allowed.maximum or largest), places)
+            own_range = row.fields.number_format == "shortest" and not self.scaled
+            return allowed if own_range else distance_range(allowed, factor, places)
         if scale in VELOCITY_SCALES:
             return Range(Decimal(0), largest_velocity(factor, self.encoder_resolution(index)), places)
         low, high = self._acceleration_range
@@ -416,7 +435,7 @@ class Settings:
         return self.places_of(row, index, places_of(row))
 
     def places_of(self, row: CommandRow, index: int, unscaled_places: int) -> int:
-        """Decimals a field of this command has now; ratios keep their own while unscaled."""
+        """Decimals a field of this command has now; ratios and master distances keep their own while unscaled."""
         scale = row.fields.scale
         if scale is None or (row.fields.number_format == "shortest" and not self.scaled):
             return unscaled_places

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
+from emulator.controller.motion.following.cycles import cycle_start
 from emulator.controller.waits import ConditionWait, Dwell
 from protocol.command import Command
 from protocol.condition import evaluate, parse_condition
@@ -31,10 +32,14 @@ def dwell(controller: Controller, command: Command) -> Lines:
 
 @handles("WAIT")
 def wait(controller: Controller, command: Command) -> Lines:
-    """WAIT: hold the buffer, whatever COMEXC says, until the condition is true."""
+    """WAIT: hold the buffer, whatever COMEXC says, until the condition is true.
+
+    A master position beyond the cycle length is one of a later cycle (6000 PG p.223).
+    """
     condition = parse_condition(command.argument[1:-1])
     evaluate(condition, controller.operands.read)
-    controller.interpreter.wait_for(ConditionWait(condition))
+    cycles = {axis_index: cycle_start(controller, axis_index) for axis_index in range(controller.settings.axes)}
+    controller.interpreter.wait_for(ConditionWait(condition, cycles))
     return None
 
 

@@ -5,6 +5,7 @@ The interpreter holds at most one; while it does, buffered commands stay where t
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -14,6 +15,7 @@ from protocol.status import SystemStatus
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
     from emulator.controller.interpreter import Entry
+    from emulator.controller.motion.following.cycles import CycleStart
 
 NEVER = 1 << 62
 """A virtual time that does not come."""
@@ -39,7 +41,10 @@ class Wait(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class MotionWait:
-    """COMEXC0: until the commanded motion of these axes is over and, with STRGTE1, settled or timed out."""
+    """COMEXC0: until the commanded motion of these axes is over and, with STRGTE1, settled or timed out.
+
+    Motion that GOWHEN holds back is still to come (assumed: GOWHEN itself does not hold the buffer, its GO does).
+    """
 
     axes: tuple[int, ...]
     look_again_ns: int = NEVER
@@ -47,7 +52,9 @@ class MotionWait:
 
     def over(self, controller: Controller) -> bool:
         engine = controller.engine
-        return not any(engine.is_moving(axis) or engine.is_settling(axis) for axis in self.axes)
+        if any(engine.is_moving(axis) or engine.is_settling(axis) for axis in self.axes):
+            return False
+        return not any(controller.held_starts.holds(axis) for axis in self.axes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,16 +70,20 @@ class Dwell:
 
 @dataclass(frozen=True, slots=True)
 class ConditionWait:
-    """WAIT: until a condition holds, looked at whenever an operand in it can have changed."""
+    """WAIT: until a condition holds, looked at whenever an operand in it can have changed.
+
+    ``cycles`` holds, by axis index, the master cycle that PMAS counts from.
+    """
 
     condition: Condition
+    cycles: Mapping[int, CycleStart]
     look_again_ns: int = NEVER
     status_bit: SystemStatus | None = SystemStatus.WAIT_ACTIVE
 
     def over(self, controller: Controller) -> bool:
-        if evaluate(self.condition, controller.operands.read):
+        if evaluate(self.condition, controller.operands.reader(self.cycles)):
             return True
-        controller.operands.arm_watches(self.condition)
+        controller.operands.arm_watches(self.condition, self.cycles)
         return False
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from emulator.controller.wires.wiring import JOYSTICK_CONTACTS
 from protocol.reply import word_bits
-from protocol.status import ExtendedAxisStatus, OtherInputs, SystemStatus
+from protocol.status import AxisStatus, ExtendedAxisStatus, OtherInputs, SystemStatus
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
@@ -57,6 +57,8 @@ def system_status(controller: Controller) -> str:
         SystemStatus.WAITING_FOR_RP240: wait is not None and wait.status_bit is SystemStatus.WAITING_FOR_RP240,
         SystemStatus.RP240_CONNECTED: controller.machine.rp240.fitted,
         SystemStatus.NONVOLATILE_MEMORY_ERROR: controller.memory_lost,
+        **controller.compiled.status,
+        **controller.captures.status,
     }
     return word_bits(sum(bit.mask for bit, on in conditions.items() if on), WORD)
 
@@ -95,6 +97,6 @@ def user_status(controller: Controller) -> str:
 
 
 def moving(controller: Controller) -> str:
-    """MOV: one bit an axis."""
+    """MOV: AS bit 1 of each axis."""
     axes = range(controller.settings.axes_in_use)
-    return "".join("1" if controller.engine.is_moving(axis_index) else "0" for axis_index in axes)
+    return "".join("1" if controller.engine.status(axis) & AxisStatus.MOVING.mask else "0" for axis in axes)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+from .arc import go_along_arc
 from .control_law import closed_loop, dither, limited, open_loop
 from .converter import convert_output
 from .encoder import OPEN_LOOP, take_feedback
@@ -17,12 +18,15 @@ from .events import (
     EVENT_HARD_LIMIT,
     EVENT_MOVE_ENDED,
     EVENT_POSITION_ERROR,
+    EVENT_ROWS_LOW,
     EVENT_SETTLE_TIMEOUT,
     EVENT_SETTLED,
     EVENT_SOFT_LIMIT,
     EVENT_STATUS,
     EVENT_WIRES,
 )
+from .following import follow_master, update_slaves
+from .following_status import FOLLOWING, check_following_watch
 from .kernels import Record, Records, kernel, seldom
 from .plants import step_plant
 from .scope import (
@@ -49,7 +53,9 @@ from .status import (
     axis_status,
     in_target_zone,
 )
+from .streaming import NO_REFILL
 from .travel import CAPTURE_NONE, capture, operate_switches
+from .trigger_capture import look_between, note_before
 from .watches import check_watches
 
 S_PER_NS = 1e-9
@@ -63,18 +69,26 @@ NEGATIVE_END = 1
 def hold_still(axis: Record) -> None:
     """No profile any more: the commanded position stays where it is."""
     axis["profile_active"] = 0
+    axis["shift_active"] = 0
+    axis["ratio_now"] = 0.0
     axis["commanded_velocity"] = 0.0
     axis["commanded_acceleration"] = 0.0
 
 
 @seldom
-def end_profile(axis: Record, now_ns: int) -> None:
-    """Arrive exactly at the profile's end and start waiting for the target zone."""
-    axis["commanded_counts"] = math.floor(axis["profile_end_counts"] + 0.5)
+def end_move(axis: Record, now_ns: int) -> None:
+    """The commanded position has arrived: start waiting for the target zone."""
     hold_still(axis)
     axis["pending_events"] |= EVENT_MOVE_ENDED
     axis["settling"] = axis["target_zone_enable"]
     axis["settle_start_ns"] = now_ns
+
+
+@seldom
+def end_profile(axis: Record, now_ns: int) -> None:
+    """Arrive exactly at the profile's end."""
+    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(axis["profile_end_counts"] + 0.5)
+    end_move(axis, now_ns)
 
 
 @seldom
@@ -90,15 +104,23 @@ def follow_profile(axis: Record, segments: Records, now_ns: int) -> None:
     while index + 1 < axis["segment_count"] and elapsed_s >= segments[first + index + 1]["start_s"]:
         index += 1
     axis["segment_index"] = index
+    if index >= axis["refill_index"]:
+        axis["refill_index"] = NO_REFILL
+        axis["pending_events"] |= EVENT_ROWS_LOW
     segment = segments[first + index]
     t = elapsed_s - segment["start_s"]
     half_rate = 0.5 * segment["jerk"] * t
     velocity = segment["velocity"]
     acceleration = segment["acceleration"]
     position = segment["position"] + t * (velocity + t * (0.5 * acceleration + half_rate / 3.0))
-    axis["commanded_counts"] = math.floor(position + 0.5)
-    axis["commanded_velocity"] = velocity + t * (acceleration + half_rate)
-    axis["commanded_acceleration"] = acceleration + segment["jerk"] * t
+    velocity += t * (acceleration + half_rate)
+    acceleration += segment["jerk"] * t
+    if segment["radius"] != 0.0:
+        go_along_arc(axis, segment, position, velocity, acceleration)
+        return
+    axis["commanded_counts"] = axis["profile_origin_counts"] + math.floor(position + 0.5)
+    axis["commanded_velocity"] = velocity
+    axis["commanded_acceleration"] = acceleration
 
 
 @seldom
@@ -156,8 +178,11 @@ def move_plant(axis: Record, before: Record, after: Record) -> None:
 def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, trajectory_due: bool) -> None:
     """One servo sample of one axis, its plant having moved."""
     if trajectory_due and axis["profile_active"] != 0:
-        follow_profile(axis, segments, now_ns)
-    take_feedback(axis)
+        if axis["profile_active"] != FOLLOWING:
+            follow_profile(axis, segments, now_ns)
+        elif follow_master(unit, axis, segments, now_ns):
+            end_move(axis, now_ns)
+    take_feedback(axis, now_ns)
     if axis["switches_fitted"] != 0:
         operate_switches(unit, axis)
     if axis["capture_mode"] != CAPTURE_NONE:
@@ -275,6 +300,8 @@ def collect_events(axis: Record) -> int:
         if watched != axis["watched_status"]:
             axis["watched_status"] = watched
             axis["pending_events"] |= EVENT_STATUS
+    if axis["following_watch_mask"] != 0:
+        check_following_watch(axis)
     fired = axis["pending_events"]
     axis["events"] |= fired
     axis["pending_events"] = 0
@@ -292,8 +319,10 @@ def check_wires(unit: Record) -> int:
 
 
 @seldom
-def system_update(unit: Record, axes: Records, watches: Records, now_ns: int) -> int:
+def system_update(unit: Record, axes: Records, ratios: Records, watches: Records, now_ns: int) -> int:
     """Everything that happens once per system update; returns the events of all axes."""
+    if unit["slaves"] != 0:
+        update_slaves(unit, axes, ratios)
     for axis_index in range(unit["axis_count"]):
         update_axis(unit, axes[axis_index], now_ns)
     if unit["armed_watches"] != 0:
@@ -325,27 +354,41 @@ def system_is_due(unit: Record) -> bool:
 
 
 @kernel
-def servo_sample(unit: Record, axes: Records, plants: Records, segments: Records, watches: Records) -> int:
+def servo_sample(
+    unit: Record, axes: Records, plants: Records, segments: Records, ratios: Records, watches: Records
+) -> int:
     """One servo sample of all axes; returns the events of a system update that fell on it, else 0."""
     now_ns = unit["next_sample_ns"]
     trajectory_due = trajectory_is_due(unit)
+    between = unit["trigger_work"] != 0
+    if between:
+        note_before(unit, axes)
     for axis_index in range(unit["axis_count"]):
         axis = axes[axis_index]
         move_plant(axis, plants[2 * axis_index], plants[2 * axis_index + 1])
         sample_axis(unit, axis, segments, now_ns, trajectory_due)
+    if between:
+        look_between(unit, axes, now_ns)
     unit["next_sample_ns"] = now_ns + unit["servo_ns"]
     if trajectory_due and system_is_due(unit):
-        return system_update(unit, axes, watches, now_ns)
+        return system_update(unit, axes, ratios, watches, now_ns)
     return 0
 
 
 @kernel
 def run(
-    unit: Record, axes: Records, plants: Records, segments: Records, watches: Records, fired: int, until_ns: int
+    unit: Record,
+    axes: Records,
+    plants: Records,
+    segments: Records,
+    ratios: Records,
+    watches: Records,
+    fired: int,
+    until_ns: int,
 ) -> int:
     """Run samples up to `until_ns` or up to events, unless some have `fired` already; returns the events."""
     while fired == 0 and unit["next_sample_ns"] <= until_ns:
-        fired = servo_sample(unit, axes, plants, segments, watches)
+        fired = servo_sample(unit, axes, plants, segments, ratios, watches)
     return fired
 
 
@@ -355,6 +398,7 @@ def run_recorded(
     axes: Records,
     plants: Records,
     segments: Records,
+    ratios: Records,
     watches: Records,
     scope: ScopeArrays,
     until_ns: int,
@@ -371,7 +415,7 @@ def run_recorded(
     wants_status = record["wants_status"] != 0
     fired = 0
     while fired == 0 and written != last and unit["next_sample_ns"] <= until_ns:
-        fired = servo_sample(unit, axes, plants, segments, watches)
+        fired = servo_sample(unit, axes, plants, segments, ratios, watches)
         to_row -= 1
         if to_row != 0:
             continue
@@ -389,7 +433,7 @@ def run_recorded(
     if not waiting:
         record["rows_to_go"] = last - written
         record["state"] = SCOPE_OFF if written == last else SCOPE_TRIGGERED
-    return run(unit, axes, plants, segments, watches, fired, until_ns)
+    return run(unit, axes, plants, segments, ratios, watches, fired, until_ns)
 
 
 @seldom
@@ -398,6 +442,7 @@ def advance(
     axes: Records,
     plants: Records,
     segments: Records,
+    ratios: Records,
     watches: Records,
     scope: ScopeArrays,
     until_ns: int,
@@ -407,9 +452,9 @@ def advance(
     Also brings the axes' `status` up to date, which is all it does when no sample is due.
     """
     if scope.records[0]["state"] == SCOPE_OFF:
-        fired = run(unit, axes, plants, segments, watches, 0, until_ns)
+        fired = run(unit, axes, plants, segments, ratios, watches, 0, until_ns)
     else:
-        fired = run_recorded(unit, axes, plants, segments, watches, scope, until_ns)
+        fired = run_recorded(unit, axes, plants, segments, ratios, watches, scope, until_ns)
     if fired != 0:
         unit["time_ns"] = unit["next_sample_ns"] - unit["servo_ns"]
     elif until_ns > unit["time_ns"]:

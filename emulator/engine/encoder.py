@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 from enum import IntEnum
 
+from .encoder_motion import drive_encoder
 from .kernels import Record, kernel, seldom
 from .plants import drag_load, keep_in_world, place_of_load
 
@@ -79,10 +80,10 @@ class EncoderTraits:
             "noise_state": noise_state(self.noise_seed, axis_index),
         }
 
-    def step_fields(self, period_s: float, *, load_apart: bool) -> dict[str, float]:
-        """Fields of the axis record that depend on the servo period and on the plant."""
+    def step_fields(self, period_s: float, *, load_apart: bool, driven: bool = False) -> dict[str, float]:
+        """Fields of the axis record that depend on the servo period, on the plant, and on what turns the encoder."""
         limit = max(1.0, self.max_rate_counts_s * period_s)
-        simple = not load_apart and self.noise_counts_rms == 0.0
+        simple = not load_apart and not driven and self.noise_counts_rms == 0.0
         return {
             "encoder_step_limit": limit,
             "encoder_easy_step": min(limit + 1.0, EASY_STEP_COUNTS) if simple else -1.0,
@@ -151,20 +152,25 @@ def count_to(axis: Record, reading: int) -> None:
 
 
 @seldom
-def read_with_care(axis: Record) -> None:
-    """Read an encoder that has moved far, is noisy, or belongs to a machine whose load is not where its motor is."""
+def read_with_care(axis: Record, now_ns: int) -> None:
+    """Read an encoder that has moved far, is noisy, is driven by something else, or belongs to a machine whose load is
+    not where its motor is."""
     keep_in_world(axis)
     if axis["load_apart"] != 0:
         drag_load(axis)
-    position = place_of_load(axis) if axis["encoder_on_load"] != 0 else axis["true_position"]
-    counts = position * axis["counts_per_rev"] + axis["encoder_phase"]
+    if axis["encoder_driven"] != 0:
+        drive_encoder(axis, now_ns)
+        counts = axis["driven_counts"] + axis["encoder_phase"]
+    else:
+        position = place_of_load(axis) if axis["encoder_on_load"] != 0 else axis["true_position"]
+        counts = position * axis["counts_per_rev"] + axis["encoder_phase"]
     if axis["encoder_noise"] > 0.0:
         counts += encoder_noise(axis)
     count_to(axis, math.floor(counts))
 
 
 @kernel
-def read_encoder(axis: Record) -> None:
+def read_encoder(axis: Record, now_ns: int) -> None:
     """Take the encoder's counts since the last sample into the encoder position.
 
     What is out of the ordinary hides behind one comparison, so that an ordinary axis pays for nothing else.
@@ -175,7 +181,7 @@ def read_encoder(axis: Record) -> None:
         axis["encoder_counts"] += axis["encoder_sign"] * (reading - axis["encoder_reading"])
         axis["encoder_reading"] = reading
     else:
-        read_with_care(axis)
+        read_with_care(axis, now_ns)
 
 
 @seldom
@@ -192,10 +198,10 @@ def read_ani(axis: Record) -> None:
 
 
 @kernel
-def take_feedback(axis: Record) -> None:
+def take_feedback(axis: Record, now_ns: int) -> None:
     """Read the sensors; the selected one is the feedback position. In open loop that is the encoder (assumed)."""
     axis["previous_feedback_counts"] = axis["feedback_counts"]
-    read_encoder(axis)
+    read_encoder(axis, now_ns)
     if axis["ani_fitted"] != 0:
         read_ani(axis)
     axis["feedback_counts"] = axis["ani_counts"] if axis["feedback_source"] == ANI_SOURCE else axis["encoder_counts"]

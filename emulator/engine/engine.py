@@ -10,19 +10,20 @@ Positions are *reported* counts, that is after `PSET`, velocities counts per sec
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from .control_law import Gains, UnitFactors, gain_fields
 from .converter import DEFAULT_DAC_BITS, dac_fields
 from .encoder import ENCODER_SOURCE
-from .events import MAX_AXES, Event, Relation, Signal
-from .feedback_inputs import FeedbackInputs
+from .events import EVENT_ROWS_LOW, MAX_AXES, Event, Relation, Signal
+from .following_axes import MasterMeasurement, MasterSource
 from .layout import UNIT, word_of
 from .machine_code import Calls, Kernel, OnBuild, load_kernel
 from .machinery import AxisHardware
 from .memory import Memory, write_fields
 from .profile import Segments, State, evaluate, profile_duration
 from .rates import NS_PER_S, ServoRates
+from .ratio_streaming import RatioStreams
 from .readings import (
     ACTIVE,
     ANI_OFFSET,
@@ -33,9 +34,11 @@ from .readings import (
     FEEDBACK,
     NS_PER_MS,
     OFFSET,
+    DriveShutDown,
     axis_word,
 )
 from .status import CLEARED_BY_ENABLE
+from .streaming import NO_REFILL, OnMark, Portion, Stream, StreamedSegment
 from .trace import Scope
 from .travel import Capture
 from .watches import WATCH_SLOTS
@@ -44,16 +47,24 @@ SHORT_RUN_SAMPLES = 40
 """Runs of fewer samples keep the interpreter lock: handing it over would cost more than the samples."""
 
 FIRST_LASTING_WATCH = WATCH_SLOTS - 2
-"""Value watches from this slot on outlive `clear_watches`: they belong to outputs on position, one an axis."""
+"""Value watches from this slot on outlive `clear_watches`: they belong to starts that wait for a position (GOWHEN), one
+an axis."""
+
+STREAM_MARGIN_UPDATES = 4
+"""System updates for which the rows of a streamed profile still last when the kernel asks for more."""
 
 DEFAULT_POSITION_ERROR_LIMIT = 4000
 """SMPER at power-up, counts. Assumed, medium confidence."""
 
 
+TIMED = 1
+"""Code of `profile_active` for a profile in time."""
+
 _TIME, _NEXT_SAMPLE, _SERVO = (word_of(UNIT, name) for name in ("time_ns", "next_sample_ns", "servo_ns"))
 _TO_TRAJECTORY, _TO_SYSTEM = (word_of(UNIT, name) for name in ("samples_to_trajectory", "trajectories_to_system"))
 _FIRED = word_of(UNIT, "fired_watches")
 _START, _SOURCE = axis_word("profile_start_ns"), axis_word("feedback_source")
+_ORIGIN, _SEGMENT_INDEX = axis_word("profile_origin_counts"), axis_word("segment_index")
 _LATCHED, _EXTRA, _STATUS = (axis_word(name) for name in ("latched_status", "extra_status", "status"))
 _EVENTS = axis_word("events")
 
@@ -67,11 +78,7 @@ def _event(mask: int) -> Event:
         return _EVENT_OF.setdefault(mask, Event(mask))
 
 
-class DriveShutDown(RuntimeError):
-    """A profile was started on an axis whose drive is off."""
-
-
-class Engine(FeedbackInputs):
+class Engine(RatioStreams):
     """The servo of one unit. Drives are off, wires open and gains those of power-up until set."""
 
     def __init__(
@@ -84,6 +91,7 @@ class Engine(FeedbackInputs):
         unit_factors: UnitFactors | None = None,
         drive_off_to_zero: bool = False,
         output_delay_s: float = 0.0,
+        measurement: MasterMeasurement | None = None,
     ) -> None:
         """`output_delay_s` is the time from a servo sample to the moment at which the output computed in it appears at
         the terminals; more than a sample counts as a whole one."""
@@ -91,6 +99,8 @@ class Engine(FeedbackInputs):
             raise ValueError(f"a unit has 1 to {MAX_AXES} axes, not {len(axes)}")
         super().__init__(Memory(len(axes)), output_delay_s=output_delay_s)
         self._profiles: list[Segments] = [() for _ in axes]
+        self._leads_s = [0.0 for _ in axes]
+        self._streams: list[Stream | None] = [None for _ in axes]
         self._gains = [Gains() for _ in axes]
         self._factors = unit_factors or UnitFactors()
         self._kernel = load_kernel(on_build)
@@ -102,6 +112,8 @@ class Engine(FeedbackInputs):
             UNIT,
             {"axis_count": len(axes), "drive_off_to_zero": drive_off_to_zero, **dac_fields(dac_bits)},
         )
+        self._init_following(len(axes), measurement or MasterMeasurement())
+        self._init_ratio_streams(len(axes))
         for axis_index, hardware in enumerate(axes):
             self._power_up(axis_index, hardware)
         self.set_rates(rates)
@@ -112,6 +124,7 @@ class Engine(FeedbackInputs):
 
     def _power_up(self, axis_index: int, hardware: AxisHardware) -> None:
         self._connect(axis_index, hardware)
+        self.connect_trigger(axis_index, 0)
         self._write(
             axis_index, position_error_limit=DEFAULT_POSITION_ERROR_LIMIT, output_limit_v=10.0, hard_limit_enable=3
         )
@@ -119,10 +132,11 @@ class Engine(FeedbackInputs):
         self.set_target_zone(axis_index, distance_counts=50, velocity_counts_s=hardware.counts_per_rev, timeout_ms=1000)
 
     def power_up(self) -> None:
-        """Switch the electronics off and on: drives off, counters at 0, latched status gone; shafts, wires and time go
-        on. Gains, limits and zones keep their values until they are set again."""
+        """Switch the electronics off and on: drives off, counters at 0, latched status and masters gone; shafts, wires
+        and time go on. Gains, limits and zones keep their values until they are set again."""
         for axis_index, ints in enumerate(self._ints):
             self.disable(axis_index)
+            self.set_master(axis_index, source=MasterSource.NONE)
             ints[_LATCHED] = ints[_EXTRA] = ints[_EVENTS] = 0
             ints[_SOURCE] = ENCODER_SOURCE
             ints[COMMANDED] = ints[OFFSET] = ints[ENCODER_OFFSET] = ints[FEEDBACK] = ints[ENCODER]
@@ -130,6 +144,7 @@ class Engine(FeedbackInputs):
             self._write(axis_index, previous_feedback_counts=ints[ENCODER], system_feedback_counts=ints[ENCODER])
             self._write(axis_index, pending_events=0, term_i=0.0, settling_ns=0, capture_mode=Capture.NONE)
         self.clear_watches()
+        self.forget_captures()
 
     # Time
 
@@ -166,9 +181,11 @@ class Engine(FeedbackInputs):
                 unit[_TIME] = until_ns
             return Event.NONE
         self._stale = False
-        if ahead_ns < self._short_run_ns:
-            return _event(self._calls.short_run(until_ns))
-        return _event(self._calls.long_run(until_ns))
+        short = ahead_ns < self._short_run_ns
+        events = self._calls.short_run(until_ns) if short else self._calls.long_run(until_ns)
+        if events & EVENT_ROWS_LOW:
+            self._feed_streams()
+        return _event(events)
 
     def set_rates(self, rates: ServoRates) -> None:
         """Change the rates; the grid of samples and updates begins anew at `time_ns`."""
@@ -188,6 +205,8 @@ class Engine(FeedbackInputs):
         write_fields(self._memory.unit, UNIT, fields)
         self.scope.note_rates()
         self._set_steps()
+        for axis_index in range(len(self._ints)):
+            self._retime_following(axis_index)
 
     # Faults
 
@@ -227,44 +246,105 @@ class Engine(FeedbackInputs):
         if not self._ints[axis_index][ENABLED]:
             raise DriveShutDown(f"the drive of axis {axis_index + 1} is off")
         offset = self._ints[axis_index][OFFSET]
-        raw = tuple(segment._replace(position=segment.position + offset) for segment in segments)
-        if self._memory.reserve_segments(len(raw)):
-            self._bind()
-        self._memory.store_segments(axis_index, raw)
-        self._profiles[axis_index] = raw
+        raw = tuple(segment.moved(offset) for segment in segments)
+        self._streams[axis_index] = None
+        self._leave_following(axis_index)
         duration_s = profile_duration(raw)
+        end = evaluate(raw, duration_s).position if duration_s < math.inf else 0.0
+        self._load(axis_index, Portion(self.next_trajectory_ns, 0, 0.0, raw, duration_s, end, NO_REFILL))
+        self._write(axis_index, profile_active=TIMED, settling=0)
+
+    def _load(self, axis_index: int, portion: Portion) -> None:
+        """Put rows into force at the next trajectory update."""
+        segments = portion.segments
+        if self._memory.reserve_segments(len(segments)):
+            self._bind()
+        self._memory.store_segments(axis_index, segments, start_s=portion.lead_s)
+        self._profiles[axis_index], self._leads_s[axis_index] = segments, portion.lead_s
         self._write(
             axis_index,
-            profile_active=1,
-            profile_start_ns=self.next_trajectory_ns,
-            profile_end_s=duration_s,
-            profile_end_counts=evaluate(raw, duration_s).position if duration_s < float("inf") else 0.0,
-            segment_count=len(raw),
+            profile_start_ns=portion.base_ns,
+            profile_end_s=portion.end_s,
+            profile_end_counts=portion.end_counts,
+            profile_origin_counts=portion.origin_counts,
+            segment_count=len(segments),
             segment_index=0,
-            settling=0,
+            refill_index=portion.refill_index,
         )
+
+    def stream_profile(
+        self, axis_index: int, pieces: Iterator[StreamedSegment], on_mark: OnMark | None = None
+    ) -> Stream:
+        """Start a profile of any length from where the axis is commanded to be, at the next trajectory update.
+
+        Pieces are taken from the iterator as they are needed, at least four system updates ahead; `on_mark` is called
+        with the marks of those taken, the first ones before this returns, the others before `run` returns ROWS_LOW.
+        Returns what `streams` knows the profile by. DriveShutDown if the drive is off.
+        """
+        if not self._ints[axis_index][ENABLED]:
+            raise DriveShutDown(f"the drive of axis {axis_index + 1} is off")
+        state = self._raw_state(axis_index)
+        stream = Stream(pieces, margin_s=STREAM_MARGIN_UPDATES * self._rates.system_ns / NS_PER_S, on_mark=on_mark)
+        self._leave_following(axis_index)
+        self._load(axis_index, stream.begin(at_ns=self.next_trajectory_ns, position_counts=state.position))
+        self._streams[axis_index] = stream
+        self._write(axis_index, profile_active=TIMED, settling=0)
+        return stream
+
+    def resume_stream(self, axis_index: int) -> None:
+        """Leave the endless piece a streamed profile is in: the next one begins at the next trajectory update."""
+        stream = self._streams[axis_index]
+        if stream is None:
+            raise ValueError(f"axis {axis_index + 1} has no streamed profile")
+        state = self._raw_state(axis_index)
+        self._load(axis_index, stream.begin(at_ns=self.next_trajectory_ns, position_counts=state.position))
+
+    def streams(self, axis_index: int, stream: Stream) -> bool:
+        """Whether this streamed profile moves the axis: it has neither ended nor been replaced."""
+        return self._streams[axis_index] is stream and self._ints[axis_index][ACTIVE] == TIMED
+
+    def _feed_streams(self) -> None:
+        """Hand more rows to the axes that have asked."""
+        for axis_index, stream in enumerate(self._streams):
+            events = self._ints[axis_index][_EVENTS]
+            if events & EVENT_ROWS_LOW:
+                self._ints[axis_index][_EVENTS] = events & ~EVENT_ROWS_LOW
+                self._feed_ratios(axis_index)
+                if stream is not None and self.streams(axis_index, stream):
+                    self._load(axis_index, stream.go_on(self._ints[axis_index][_SEGMENT_INDEX]))
 
     def cancel_profile(self, axis_index: int) -> None:
         """Give up the profile at once: the commanded position stays where it is."""
+        self._leave_following(axis_index)
         self._write(axis_index, profile_active=0, commanded_velocity=0.0, commanded_acceleration=0.0, settling=0)
 
     def profile_state(self, axis_index: int) -> State:
         """Position, velocity, acceleration the profile will have at the next trajectory update: what a new plan
         starts from. At rest the commanded position."""
+        position, velocity, acceleration = self._raw_state(axis_index)
+        return State(position - self._ints[axis_index][OFFSET], velocity, acceleration)
+
+    def _raw_state(self, axis_index: int) -> State:
         ints = self._ints[axis_index]
         if not ints[ACTIVE]:
-            return State(float(ints[COMMANDED] - ints[OFFSET]), 0.0, 0.0)
-        elapsed_s = (self.next_trajectory_ns - ints[_START]) / NS_PER_S
+            return State(float(ints[COMMANDED]), 0.0, 0.0)
+        if self.is_following(axis_index):
+            position, velocity, acceleration = self._slave_state(axis_index)
+            return State(position + ints[OFFSET], velocity, acceleration)
+        elapsed_s = (self.next_trajectory_ns - ints[_START]) / NS_PER_S - self._leads_s[axis_index]
         position, velocity, acceleration = evaluate(self._profiles[axis_index], elapsed_s)
-        return State(position - ints[OFFSET], velocity, acceleration)
+        return State(position + ints[_ORIGIN], velocity, acceleration)
 
     def profile_target(self, axis_index: int) -> float | None:
         """Reported counts at which the running profile ends; None for one that goes on for ever."""
+        if self.is_following(axis_index):
+            return self._slave_end(axis_index)
         segments = self._profiles[axis_index]
         duration_s = profile_duration(segments)
         if duration_s == float("inf"):
             return None
-        return evaluate(segments, duration_s).position - self._ints[axis_index][OFFSET]
+        ints = self._ints[axis_index]
+        return evaluate(segments, duration_s).position + ints[_ORIGIN] - ints[OFFSET]
 
     # Settings
 
@@ -381,7 +461,7 @@ class Engine(FeedbackInputs):
     ) -> None:
         """Report VALUE at the first system update at which `signal relation threshold` holds, then disarm.
 
-        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are 8 slots.
+        `signal` is a Signal or its name, `relation` a Relation or one of = <> < > <= >=. There are WATCH_SLOTS slots.
         """
         if not 0 <= slot < WATCH_SLOTS:
             raise ValueError(f"watch slots are 0 to {WATCH_SLOTS - 1}, not {slot}")
@@ -396,6 +476,7 @@ class Engine(FeedbackInputs):
         self._memory.units["armed_watches"] = self._memory.watches["armed"].sum()
         self._memory.units["fired_watches"] = 0
         self._memory.axes["watch_mask"] = 0
+        self._memory.axes["following_watch_mask"] = 0
 
     def disarm_watch(self, slot: int) -> None:
         """Disarm one value watch."""

@@ -19,6 +19,8 @@ EVENT_VALUE = 128
 EVENT_WIRES = 256
 EVENT_HOME_EDGE = 512
 EVENT_INDEX = 1024
+EVENT_TRIGGER = 1 << 16
+EVENT_ROWS_LOW = 1 << 20
 
 
 class Event(IntFlag):
@@ -40,13 +42,17 @@ class Event(IntFlag):
     STATUS = EVENT_STATUS
     """A watched AS bit changed."""
     VALUE = EVENT_VALUE
-    """A value watch came true."""
+    """A value watch came true, or the encoder passed a position waited for."""
     WIRES = EVENT_WIRES
     """`wires` or `inputs` differ from what was last reported, or a report was asked for."""
     HOME_EDGE = EVENT_HOME_EDGE
     """The home input changed as an armed capture waited for."""
     INDEX = EVENT_INDEX
     """The encoder passed an index pulse as an armed capture waited for."""
+    TRIGGER = EVENT_TRIGGER
+    """The axis's trigger has latched positions."""
+    ROWS_LOW = EVENT_ROWS_LOW
+    """More of a streamed profile was taken from its iterator, marks and all."""
 
 
 class Signal(IntEnum):
@@ -70,6 +76,18 @@ class Signal(IntEnum):
     """Voltage at the ANI feedback input as converted, V."""
     PANI = 8
     """Position of the ANI feedback input, counts."""
+    PMAS = 9
+    """Position in the master cycle, counts."""
+    NMCY = 10
+    """Number of the master cycle."""
+    VMAS = 11
+    """Master velocity, counts/s."""
+    PSLV = 12
+    """Commanded position of the slave, counts."""
+    PSHF = 13
+    """Net shift, counts."""
+    MASTER = 14
+    """Master travel since it was assigned, whatever its cycles, counts."""
 
 
 class Relation(IntEnum):

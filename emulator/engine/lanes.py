@@ -1,6 +1,6 @@
 """Many like units run side by side in one call: what a sweep over gains and plants is made of.
 
-A lane is a unit with its own state, plant and scope; all lanes share one table of profiles and no watches. Events are
+A lane is a unit with its own state, plant and scope; all lanes share the tables of profiles and no watches. Events are
 of no interest there: a lane runs straight to the time asked for.
 """
 
@@ -35,6 +35,7 @@ def advance_lanes(
     axes: Records,
     plants: Records,
     segments: Records,
+    ratios: Records,
     watches: Records,
     scope: ScopeArrays,
     until_ns: int,
@@ -48,5 +49,5 @@ def advance_lanes(
         lane_plants = plants[2 * lane * axis_count : 2 * (lane + 1) * axis_count]
         scope_here = lane_scope(scope, lane, lanes)
         while unit["time_ns"] < until_ns:
-            advance(unit, lane_axes, lane_plants, segments, watches, scope_here, until_ns)
+            advance(unit, lane_axes, lane_plants, segments, ratios, watches, scope_here, until_ns)
     return 0

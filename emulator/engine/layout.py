@@ -43,7 +43,108 @@ UNIT_FIELDS: Fields = (
     ("outputs", INT, "programmable outputs that are on, bit 0 = output 1, as the controller last set them"),
     ("armed_watches", INT, "value watches still armed"),
     ("fired_watches", INT, "value watches that have fired, bit = slot, since Python last asked"),
+    ("trigger_work", INT, "why samples are looked between, bits of `trigger_capture`; 0 = no reason"),
+    ("slaves", INT, "axes that have a master"),
+    ("ratio_capacity", INT, "rows of the table of ratios kept for each axis"),
 )
+
+_FOLLOWING_FIELDS: Fields = (
+    # the master, at system updates
+    ("master_source", INT, "0 no master, 1 encoder, 2 ANI input, 4 commanded position (source digit of FOLMAS)"),
+    ("master_index", INT, "axis the master belongs to"),
+    ("master_sign", INT, "+1 or -1: sign of FOLMAS"),
+    ("master_raw", INT, "what the source showed at the last system update, counts"),
+    ("master_counts", INT, "master travel since it was assigned, after the sign, counts"),
+    ("master_moved", INT, "master travel in the last system update period, counts"),
+    ("master_decay", FLOAT, "FFILT: share of the filter's lag that is left after a system update; 0 = no filter"),
+    ("master_lag", FLOAT, "master position less filtered master position, counts"),
+    ("first_master_lag", FLOAT, "share of it of the filter's first stage, counts"),
+    ("filter_stages", INT, "stages of the filter: 1 or 2"),
+    ("previous_master_lag", FLOAT, "the same one system update earlier, counts"),
+    ("prediction", INT, "FPPEN: 0 off, else the samples the master velocity is measured over, 1 or 2"),
+    ("master_used", INT, "master position filtered and predicted, whole counts"),
+    ("master_used_part", FLOAT, "its fraction of a count"),
+    ("master_velocity", FLOAT, "change of the filtered master position over two system updates, counts/s"),
+    ("cycle_length", INT, "FMCLEN, counts; 0 = endless"),
+    ("cycle_counts", INT, "position in the master cycle (PMAS), counts"),
+    ("cycle_number", INT, "master cycles finished since the last restart (NMCY)"),
+    # the ratio profile in force
+    ("first_ratio", INT, "row of the profile's first piece in the table of ratios"),
+    ("ratio_count", INT, "pieces in the profile"),
+    ("ratio_index", INT, "piece in force, 0 = first"),
+    ("ratio_master", INT, "master position at which the profile begins, whole counts"),
+    ("ratio_master_part", FLOAT, "its fraction of a count"),
+    ("ratio_base", INT, "raw slave position at which the profile begins, whole counts"),
+    ("ratio_direction", INT, "+1 or -1: master direction in which the profile runs"),
+    ("ratio_mirrored", INT, "1 = it still runs in whichever direction the master goes from its beginning"),
+    ("ratio_waiting", INT, "1 = a preset move whose beginning still goes with a master that backs up"),
+    ("ratio_held", INT, "1 = a move whose beginning is a given master position"),
+    ("ratio_told_index", INT, "row of the ratio profile in which the kernel tells that it is there"),
+    ("ratio_phase", INT, "0 none, 1 held, 2 waits for the master, 3 ratio changes, 4 constant ratio, 5 at its end"),
+    ("ratio_updates_left", INT, "of a profile at its end: system updates until the slave is there; 0 = not at its end"),
+    ("ratio_now", FLOAT, "ratio at the last system update, slave counts per master count"),
+    ("sum_piece", INT, "piece the exact sum belongs to"),
+    ("sum_master", INT, "whole master counts from the profile's beginning that the exact sum has taken in"),
+    ("sum_counts", INT, "exact slave travel after them, whole counts"),
+    ("sum_part", INT, "its fraction of a count, in units of the piece's denominator"),
+    # the slave
+    ("slave_next", INT, "raw slave position computed at the last system update, whole counts"),
+    ("slave_next_part", FLOAT, "its fraction of a count"),
+    ("slave_target", INT, "raw slave position being gone to, to be reached at the next system update, whole counts"),
+    ("slave_target_part", FLOAT, "its fraction of a count"),
+    ("slave_from", INT, "raw slave position reached at the last system update, whole counts"),
+    ("slave_from_part", FLOAT, "its fraction of a count"),
+    ("slave_step", FLOAT, "way between the two in a trajectory update, counts"),
+    ("slave_velocity", FLOAT, "velocity of the ratio move, counts/s"),
+    ("slave_acceleration", FLOAT, "change of that velocity over the last system update, counts/s2"),
+    # the phase shift
+    ("shift_active", INT, "1 = a shift is under way"),
+    ("shift_continuous", INT, "1 = it is, or was, an FSHFC"),
+    ("shift_start_ns", INT, "time of the trajectory update at which the shift begins, ns"),
+    ("shift_end_s", FLOAT, "duration of the shift, s (infinite while it goes on at constant velocity)"),
+    ("shift_end_counts", FLOAT, "net shift at its end, counts"),
+    ("first_shift_segment", INT, "row of the shift's first segment in the segment table"),
+    ("shift_count", INT, "segments in the shift"),
+    ("shift_index", INT, "segment in force, 0 = first"),
+    ("shift_counts", FLOAT, "net shift, counts"),
+    ("shift_velocity", FLOAT, "velocity of the shift, counts/s"),
+    ("shift_acceleration", FLOAT, "acceleration of the shift, counts/s2"),
+    # status
+    ("following_status", INT, "FS word as of the last return of the kernel, bit n = 1 << (n - 1)"),
+)
+
+
+def _trigger_fields() -> Fields:
+    """What happens between two samples: `trigger_capture`. Trigger n is in the record of axis n."""
+    positions = {"encoder": "encoder", "commanded": "commanded", "ani": "ANI"}
+    return (
+        ("trigger_mask", INT, "bit of the axis's trigger in `inputs`"),
+        ("trigger_armed", INT, "1 = its active edge latches positions (INFNC-H)"),
+        ("trigger_active_level", INT, "1 = grounded is active (INLVL0), 0 = open"),
+        ("trigger_lockout_ns", INT, "TRGLOT, ns"),
+        ("trigger_locked_until_ns", INT, "edges before this time are ignored, ns"),
+        ("trigger_edge_ns", INT, "time of an edge that the next sample captures, ns; -1 = none"),
+        ("captured_edge_ns", INT, "time of the last edge captured, ns; -1 = none"),
+        ("captures", INT, "edges captured since power-up"),
+        ("sensor_fitted", INT, "1 = a sensor at the trigger sees marks"),
+        ("sensor_axis", INT, "axis the marks are on"),
+        ("sensor_operated", INT, "bit of `inputs` that a mark at the sensor has changed over"),
+        ("mark_at_rev", FLOAT, "true position of a mark's beginning, rev"),
+        ("mark_every_rev", FLOAT, "from mark to mark, rev; 0 = one mark"),
+        ("mark_width_rev", FLOAT, "width of a mark, rev"),
+        ("compare_direction", INT, "which way the encoder is to come to compare_counts, +1 or -1; 0 = not waited for"),
+        ("compare_counts", INT, "raw encoder position waited for, counts"),
+        ("compare_passed_ns", INT, "when it was passed, ns; -1 = not yet"),
+        ("before_rev", FLOAT, "true position of the shaft at the last sample, rev"),
+        ("before_load_rev", FLOAT, "position of the load at the last sample, rev"),
+        ("before_rev_s", FLOAT, "true velocity at the last sample, rev/s"),
+        ("before_reading", INT, "encoder_reading at the last sample"),
+        *((f"before_{key}_counts", INT, f"raw {name} position at the last sample") for key, name in positions.items()),
+        ("before_feedback_counts", INT, "raw feedback position at the last sample"),
+        *((f"own_{key}_capture", INT, f"raw {name} position, by its own trigger") for key, name in positions.items()),
+        *((f"other_{key}_capture", INT, "the same by the other axis's trigger") for key in positions),
+    )
+
 
 AXIS_FIELDS: Fields = (
     # drive and loop
@@ -54,10 +155,12 @@ AXIS_FIELDS: Fields = (
     ("encoder_wiring", INT, "+1 as it should be, -1 channels exchanged, 0 nothing arrives"),
     ("output_sign", INT, "+1 or -1: CMDDIR"),
     # trajectory
-    ("profile_active", INT, "1 = a profile is running, or waits for its first trajectory update"),
+    ("profile_active", INT, "1 = a profile is running, or waits for its first trajectory update; 2 = Following"),
     ("profile_start_ns", INT, "time of the trajectory update at which the profile begins, ns"),
     ("profile_end_s", FLOAT, "duration of the profile, s (infinite while moving on at constant velocity)"),
-    ("profile_end_counts", FLOAT, "raw commanded position at the end of the profile, counts"),
+    ("profile_end_counts", FLOAT, "commanded position at the end of the profile, counts from profile_origin_counts"),
+    ("profile_origin_counts", INT, "raw position from which the positions of the profile's rows count, counts"),
+    ("refill_index", INT, "segment of the profile in which the kernel asks for more rows"),
     ("first_segment", INT, "row of the profile's first segment in the segment table"),
     ("segment_count", INT, "segments in the profile"),
     ("segment_index", INT, "segment in force, 0 = first"),
@@ -148,6 +251,8 @@ AXIS_FIELDS: Fields = (
     ("status", INT, "AS word as of the last return of the kernel, bit n = 1 << (n - 1)"),
     ("watch_mask", INT, "AS bits being watched"),
     ("watched_status", INT, "the watched bits when armed or last reported"),
+    ("following_watch_mask", INT, "FS bits being watched"),
+    ("watched_following", INT, "the watched bits when armed or last reported"),
     ("pending_events", INT, "events since the last system update"),
     ("events", INT, "events reported and not yet read"),
     # plant: state
@@ -161,6 +266,20 @@ AXIS_FIELDS: Fields = (
     ("load_velocity", FLOAT, "velocity of the load's inertia on a springy shaft, rev/s"),
     ("spool", FLOAT, "position of a cylinder's valve spool, V"),
     ("spool_rate", FLOAT, "its velocity over the valve's natural frequency, V"),
+    # an encoder turned by something else than its motor
+    ("encoder_driven", INT, "1 = its motion is what follows, 0 = the axis turns it"),
+    ("driven_counts", FLOAT, "where it stands, without its phase, counts"),
+    ("motion_start_ns", INT, "when its motion begins, ns"),
+    ("motion_origin", FLOAT, "where it stood then, counts"),
+    ("motion_start_velocity", FLOAT, "its velocity then, counts/s"),
+    ("motion_velocity", FLOAT, "its velocity after the ramp, counts/s"),
+    ("motion_ramp_s", FLOAT, "duration of the ramp, s"),
+    ("motion_swing", FLOAT, "amplitude of a sine on top, counts"),
+    ("motion_hz", FLOAT, "its frequency, Hz"),
+    ("motion_end_s", FLOAT, "duration of the motion, s; it then rests"),
+    ("motion_end_counts", FLOAT, "travel of the whole motion, counts"),
+    *_FOLLOWING_FIELDS,
+    *_trigger_fields(),
 )
 
 
@@ -226,10 +345,33 @@ PLANT_FIELDS: Fields = (
 
 SEGMENT_FIELDS: Fields = (
     ("start_s", FLOAT, "start within the profile, s"),
-    ("position", FLOAT, "raw position at the start, counts"),
-    ("velocity", FLOAT, "velocity at the start, counts/s"),
-    ("acceleration", FLOAT, "acceleration at the start, counts/s2"),
+    (
+        "position",
+        FLOAT,
+        "position at the start, counts from the profile's origin; on an arc the length travelled",
+    ),
+    ("velocity", FLOAT, "velocity at the start, counts/s; on an arc along the path"),
+    ("acceleration", FLOAT, "acceleration at the start, counts/s2; on an arc along the path"),
     ("jerk", FLOAT, "jerk, counts/s3"),
+    ("radius", FLOAT, "radius of the arc, counts; 0 = the axis moves straight"),
+    ("centre", FLOAT, "the arc's centre on this axis, counts from the profile's origin"),
+    ("phase", FLOAT, "angle from this axis's positive direction at the beginning of the arc, rad"),
+    ("curvature", FLOAT, "change of that angle, rad per count of path"),
+)
+
+RATIO_FIELDS: Fields = (
+    ("kind", INT, "0 ratio on its way, 1 hold before the beginning, 2 endless, 3 end"),
+    ("master", INT, "first whole master count of the piece, from the profile's beginning"),
+    ("master_part", FLOAT, "beginning of the piece less that count, above -1 to 0"),
+    ("slave", INT, "slave travel at that count (of a changing ratio: at its beginning), whole counts"),
+    ("slave_part", INT, "its fraction of a count, in units of 1 / denominator"),
+    ("base_part", INT, "the fraction of a count in the slave's position at the profile's beginning, the same units"),
+    ("denominator", INT, "parts in a count"),
+    ("most_master", INT, "master counts that can be added up at once"),
+    ("ratio_counts", INT, "constant ratio: whole slave counts per master count, rounded down"),
+    ("ratio_part", INT, "constant ratio: the rest, in units of 1 / denominator"),
+    ("ratio", FLOAT, "ratio at the beginning of the piece, slave counts per master count"),
+    ("slope", FLOAT, "change of the ratio per master count"),
 )
 
 WATCH_FIELDS: Fields = (
@@ -274,6 +416,7 @@ UNIT = _dtype(UNIT_FIELDS)
 AXIS = _dtype(AXIS_FIELDS)
 PLANT = _dtype(PLANT_FIELDS)
 SEGMENT = _dtype(SEGMENT_FIELDS)
+RATIO = _dtype(RATIO_FIELDS)
 WATCH = _dtype(WATCH_FIELDS)
 SCOPE = _dtype(SCOPE_FIELDS)
 

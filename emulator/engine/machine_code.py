@@ -34,8 +34,8 @@ import numpy as np
 
 from . import cycle, lanes
 from .kernels import CALLED_FUNCTIONS, KERNEL_FUNCTIONS
-from .layout import AXIS, PLANT, SCOPE, SEGMENT, UNIT, WATCH, WORD_BYTES
-from .memory import Memory
+from .layout import AXIS, PLANT, RATIO, SCOPE, SEGMENT, UNIT, WATCH, WORD_BYTES
+from .memory import SEGMENT_BANKS, Memory
 from .scope import ScopeArrays
 from .watches import WATCH_SLOTS
 
@@ -168,7 +168,7 @@ def build_saying(sentence: str, build: Callable[[Path], Kernel], path: Path, on_
 
 def cache_path() -> Path:
     """Where this kernel's object code is kept; OEM6250_CACHE_DIR overrides the directory."""
-    records = (UNIT, AXIS, PLANT, SEGMENT, WATCH, SCOPE)
+    records = (UNIT, AXIS, PLANT, SEGMENT, RATIO, WATCH, SCOPE)
     return cache_file("servo", fingerprint(KERNEL_FUNCTIONS, records, also=(__file__,)))
 
 
@@ -268,8 +268,9 @@ def _compile() -> Any:
         axis_count = units[0]["axis_count"]
         axes = carray(table[1], (count * axis_count,), AXIS)
         plants = carray(table[2], (count * axis_count * 2,), PLANT)
-        segments = carray(table[3], (axis_count * units[0]["segment_capacity"],), SEGMENT)
+        segments = carray(table[3], (SEGMENT_BANKS * axis_count * units[0]["segment_capacity"],), SEGMENT)
         watches = carray(table[4], (WATCH_SLOTS,), WATCH)
+        ratios = carray(table[9], (axis_count * units[0]["ratio_capacity"],), RATIO)
         scopes = carray(table[5], (count,), SCOPE)
         ring_words = scopes[0]["rows"] * (scopes[0]["axis_channels"] + scopes[0]["unit_channels"])
         scope = ScopeArrays(
@@ -283,8 +284,8 @@ def _compile() -> Any:
             carray(table[8], (count * ring_words,), np.int64),
         )
         if lane_count == 0:
-            return advance_one(units[0], axes, plants, segments, watches, scope, until_ns)
-        return advance_lanes(units, axes, plants, segments, watches, scope, until_ns)
+            return advance_one(units[0], axes, plants, segments, ratios, watches, scope, until_ns)
+        return advance_lanes(units, axes, plants, segments, ratios, watches, scope, until_ns)
 
     return as_callback(numba, entry)
 
@@ -334,7 +335,15 @@ def _bound(function: Any, table: int) -> Advance:
 
 
 def _bind_interpreted(memory: Memory) -> Calls:
-    arrays = (memory.units[0], memory.axes, memory.plants, memory.segments, memory.watches, memory.scope_arrays())
+    arrays = (
+        memory.units[0],
+        memory.axes,
+        memory.plants,
+        memory.segments,
+        memory.ratios,
+        memory.watches,
+        memory.scope_arrays(),
+    )
 
     def advance(until_ns: int) -> int:
         return int(cycle.advance(*arrays, until_ns))
@@ -343,7 +352,15 @@ def _bind_interpreted(memory: Memory) -> Calls:
 
 
 def _bind_interpreted_lanes(memory: Memory) -> Advance:
-    arrays = (memory.units, memory.axes, memory.plants, memory.segments, memory.watches, memory.scope_arrays())
+    arrays = (
+        memory.units,
+        memory.axes,
+        memory.plants,
+        memory.segments,
+        memory.ratios,
+        memory.watches,
+        memory.scope_arrays(),
+    )
 
     def advance(until_ns: int) -> int:
         return lanes.advance_lanes(*arrays, until_ns)

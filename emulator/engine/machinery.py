@@ -8,20 +8,25 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from .encoder import ENCODER_SOURCE, HIGHEST_COUNTS_PER_REV, AnalogSensor, EncoderTraits, EncoderWiring, read_ani
+from .encoder_motion import EncoderMotion, drive_encoder, driven_velocity
 from .events import Wire, wire_mask
 from .layout import PLANT, UNIT, word_of
 from .memory import Memory, write_fields
 from .plants import WORLD_END_REV, Plant, VelocityDrive, load_fields, plant_fields
 from .rates import NS_PER_S
 from .readings import ENCODER, axis_word
-from .terminals import Terminals
 from .travel import Travel, operate_switches
+from .trigger_inputs import TriggerInputs
 
 _SERVO = word_of(UNIT, "servo_ns")
 _PHASE, _READING = axis_word("encoder_phase"), axis_word("encoder_reading")
 _SIGN, _POLARITY, _WIRING = (axis_word(name) for name in ("encoder_sign", "encoder_polarity", "encoder_wiring"))
 _APART = axis_word("load_apart")
 _OUTPUT_SIGN = axis_word("output_sign")
+_TIME = word_of(UNIT, "time_ns")
+_DRIVEN, _DRIVEN_COUNTS = axis_word("encoder_driven"), axis_word("driven_counts")
+_ON_LOAD, _COUNTS_PER_REV = axis_word("encoder_on_load"), axis_word("counts_per_rev")
+_MOTION_START = axis_word("motion_start_ns")
 
 
 LOAD_FIELDS = ("load_apart", "half_backlash", "encoder_step_limit", "encoder_easy_step")
@@ -45,6 +50,8 @@ class AxisHardware:
     """The sensor at the ANI feedback input; None: the option is not fitted."""
     encoder: EncoderTraits = field(default_factory=EncoderTraits)
     """Where the encoder sits, and its imperfections."""
+    motion: EncoderMotion | None = None
+    """What else turns the encoder; None: the axis itself does."""
 
     def __post_init__(self) -> None:
         if not 1 <= self.counts_per_rev <= HIGHEST_COUNTS_PER_REV:
@@ -57,7 +64,7 @@ class AxisHardware:
         return (position_rev * self.counts_per_rev + self.encoder_phase) // 1
 
 
-class Machinery(Terminals):
+class Machinery(TriggerInputs):
     """Drives, loads and encoders of one unit's axes."""
 
     def __init__(self, memory: Memory, *, output_delay_s: float) -> None:
@@ -90,6 +97,9 @@ class Machinery(Terminals):
             **hardware.travel.fields(),
             **(hardware.ani or AnalogSensor()).fields(),
         )
+        if hardware.motion is not None:
+            origin = start_rev * hardware.counts_per_rev
+            self._write(axis_index, **hardware.motion.fields(origin_counts=origin, now_ns=0))
         read_ani(self._memory.axes[axis_index])
         operate_switches(self._memory.units[0], self._memory.axes[axis_index])
 
@@ -122,7 +132,9 @@ class Machinery(Terminals):
     def load_fields(self, axis_index: int, plant: Plant) -> dict[str, float]:
         """Fields of the axis record that depend on the plant: where its load is, and how the encoder is to be read."""
         period_s = self._unit[_SERVO] / NS_PER_S
-        encoder = self._encoders[axis_index].step_fields(period_s, load_apart=plant.load_apart)
+        encoder = self._encoders[axis_index].step_fields(
+            period_s, load_apart=plant.load_apart, driven=bool(self._ints[axis_index][_DRIVEN])
+        )
         return load_fields(plant) | encoder
 
     def plant_steps(self, plant: Plant) -> tuple[dict[str, float], dict[str, float]]:
@@ -157,6 +169,37 @@ class Machinery(Terminals):
     def encoder_travel(self, axis_index: int) -> int:
         """What the encoder itself shows, whatever is counted of it, counts."""
         return self._ints[axis_index][_READING]
+
+    def move_encoder(self, axis_index: int, motion: EncoderMotion) -> None:
+        """Turn the encoder by something else than the axis, from now and from where it stands."""
+        ints = self._ints[axis_index]
+        if not ints[_DRIVEN]:
+            position = self.load_position_rev(axis_index) if ints[_ON_LOAD] else self.true_position_rev(axis_index)
+            self._write(axis_index, driven_counts=position * self._floats[axis_index][_COUNTS_PER_REV])
+        else:
+            drive_encoder(self._memory.axes[axis_index], self._unit[_TIME])
+        origin = self._floats[axis_index][_DRIVEN_COUNTS]
+        self._write(axis_index, **motion.fields(origin_counts=origin, now_ns=self._unit[_TIME]))
+        self.set_plant(axis_index, self._plants[axis_index])
+
+    def encoder_velocity(self, axis_index: int) -> float:
+        """Velocity of an encoder that something else turns, a sine left aside, counts/s; 0 for one the axis turns."""
+        ints = self._ints[axis_index]
+        if not ints[_DRIVEN]:
+            return 0.0
+        elapsed_s = (self._unit[_TIME] - ints[_MOTION_START]) / NS_PER_S
+        return driven_velocity(self._memory.axes[axis_index], elapsed_s)
+
+    def release_encoder(self, axis_index: int) -> None:
+        """The axis turns its encoder again; the position does not jump."""
+        ints, floats = self._ints[axis_index], self._floats[axis_index]
+        if not ints[_DRIVEN]:
+            return
+        drive_encoder(self._memory.axes[axis_index], self._unit[_TIME])
+        position = self.load_position_rev(axis_index) if ints[_ON_LOAD] else self.true_position_rev(axis_index)
+        floats[_PHASE] += floats[_DRIVEN_COUNTS] - position * floats[_COUNTS_PER_REV]
+        self._write(axis_index, encoder_driven=0)
+        self.set_plant(axis_index, self._plants[axis_index])
 
     def slip_encoder(self, axis_index: int, counts: int) -> None:
         """Turn the encoder on its shaft by whole counts, forwards positive; its index pulse turns with it."""

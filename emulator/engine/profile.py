@@ -29,13 +29,27 @@ NEGLIGIBLE_VELOCITY = 1e-9
 
 
 class Segment(NamedTuple):
-    """One cubic piece: its duration (s, infinite for an endless one) and the state at its start (counts, s)."""
+    """One cubic piece: its duration (s, infinite for an endless one) and the state at its start (counts, s).
+
+    With a `radius` it is an axis's share of an arc: the cubic is then the length of it travelled, and the position is
+    centre + radius * cos(phase + curvature * length) (`curvature` in rad per count of path).
+    """
 
     duration_s: float
     position: float
     velocity: float
     acceleration: float
     jerk: float
+    radius: float = 0.0
+    centre: float = 0.0
+    phase: float = 0.0
+    curvature: float = 0.0
+
+    def moved(self, counts: float) -> Segment:
+        """The same piece elsewhere, `counts` further on."""
+        if self.radius:
+            return self._replace(centre=self.centre + counts)
+        return self._replace(position=self.position + counts)
 
 
 class State(NamedTuple):
@@ -173,7 +187,17 @@ def segment_state(segment: Segment, t: float) -> State:
     half_rate = 0.5 * segment.jerk * t
     velocity = segment.velocity + t * (segment.acceleration + half_rate)
     position = segment.position + t * (segment.velocity + t * (0.5 * segment.acceleration + half_rate / 3.0))
-    return State(position, velocity, segment.acceleration + segment.jerk * t)
+    state = State(position, velocity, segment.acceleration + segment.jerk * t)
+    return _on_arc(segment, state) if segment.radius else state
+
+
+def _on_arc(segment: Segment, along: State) -> State:
+    """An axis's state on its arc from the state along the path."""
+    angle = segment.phase + segment.curvature * along.position
+    across, slope = segment.radius * math.cos(angle), -segment.radius * math.sin(angle)
+    turning = segment.curvature * along.velocity
+    acceleration = slope * segment.curvature * along.acceleration - across * turning * turning
+    return State(segment.centre + across, slope * turning, acceleration)
 
 
 def _require_positive(*values: float) -> None:

@@ -46,6 +46,10 @@ NS_PER_MS = 1_000_000
 _SETTLING, _ANI_SIGN = axis_word("settling"), axis_word("ani_sign")
 
 
+class DriveShutDown(RuntimeError):
+    """A move was started on an axis whose drive is off."""
+
+
 class AxisReadings:
     """The reading half of `Engine`."""
 

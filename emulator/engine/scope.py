@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from .following_status import following_status
 from .kernels import Floats, Record, Records, Words, kernel, seldom
 from .status import axis_status
 from .watches import holds
@@ -108,6 +109,7 @@ def triggers(scope: ScopeArrays, rows_written: int) -> bool:
 
 @seldom
 def refresh_status(axes: Records, axis_count: int) -> None:
-    """Work out the AS words, which otherwise are only when the kernel returns."""
+    """Work out the AS and FS words, which otherwise are only when the kernel returns."""
     for axis_index in range(axis_count):
         axes[axis_index]["status"] = axis_status(axes[axis_index])
+        axes[axis_index]["following_status"] = following_status(axes[axis_index])

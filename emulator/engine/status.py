@@ -10,6 +10,7 @@ that bit 2 reads 0 at rest, and that actual velocity is measured over one system
 
 from __future__ import annotations
 
+from .following_status import FOLLOWING, PHASE_CONSTANT, slave_in_motion
 from .kernels import Record, kernel
 
 MOVING = 1 << 0
@@ -47,15 +48,19 @@ def in_target_zone(axis: Record) -> bool:
 
 @kernel
 def motion_bits(axis: Record) -> int:
-    """AS bits 1 to 4 from the profile at the last trajectory update."""
-    if axis["profile_active"] == 0:
+    """AS bits 1 to 4 from the profile at the last trajectory update.
+
+    A slave at a constant ratio is at velocity, however unevenly its master moves (assumed).
+    """
+    if axis["profile_active"] == 0 or (axis["profile_active"] == FOLLOWING and not slave_in_motion(axis)):
         return 0
     velocity = axis["commanded_velocity"]
     acceleration = axis["commanded_acceleration"]
     bits = MOVING
     if velocity < 0.0 or (velocity == 0.0 and acceleration < 0.0):
         bits |= NEGATIVE_DIRECTION
-    if acceleration == 0.0:
+    at_ratio = axis["profile_active"] == FOLLOWING and axis["ratio_phase"] == PHASE_CONSTANT
+    if acceleration == 0.0 or (at_ratio and axis["shift_active"] == 0):
         if velocity != 0.0:
             bits |= AT_VELOCITY
     elif acceleration * velocity > 0.0 or velocity == 0.0:

@@ -172,7 +172,8 @@ class Scope:
             "every": every,
             "samples_to_row": every,
             "wants_status": any(
-                source.field == "status" for source in (*sources, *([trigger.source] if trigger else []))
+                source.field in ("status", "following_status")
+                for source in (*sources, *([trigger.source] if trigger else []))
             ),
             "trigger_on": 0,
             **(trigger.fields() if trigger is not None else {}),

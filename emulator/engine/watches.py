@@ -21,6 +21,22 @@ def ani_value(axis: Record, signal: int) -> float:
     return float(axis["ani_counts"] - axis["ani_offset_counts"])
 
 
+@seldom
+def following_value(axis: Record, signal: int) -> float:
+    """Value of a signal of Following."""
+    if signal == 9:
+        return float(axis["cycle_counts"])
+    if signal == 10:
+        return float(axis["cycle_number"])
+    if signal == 11:
+        return float(axis["master_velocity"])
+    if signal == 12:
+        return float(axis["commanded_counts"] - axis["offset_counts"])
+    if signal == 13:
+        return float(axis["shift_counts"])
+    return float(axis["master_counts"])
+
+
 @kernel
 def signal_value(axis: Record, signal: int) -> float:
     """Value of a signal, codes of `events.Signal`; positions in reported counts."""
@@ -38,7 +54,7 @@ def signal_value(axis: Record, signal: int) -> float:
         return float(axis["actual_velocity"])
     if signal == 6:
         return float(axis["dac_v"])
-    return ani_value(axis, signal)
+    return ani_value(axis, signal) if signal < 9 else following_value(axis, signal)
 
 
 @kernel

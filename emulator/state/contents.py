@@ -75,7 +75,8 @@ class Contents(NamedTuple):
     """In the order they were defined, data programs among them."""
     gains: tuple[GainValue, ...] = ()
     profiles: tuple[tuple[str, str], ...] = ()
-    """Compiled profiles by program name: the place is there, nothing fills it yet."""
+    """Compiled profiles by program name. A unit forgets what is compiled at power-off and asks for PCOMP again (assumed
+    M), so it leaves this empty; the place is for files of units that keep them, as later products do."""
 
 
 # Parts: sequences of things, a row each, compared place by place.

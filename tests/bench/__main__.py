@@ -23,6 +23,7 @@ GROUPS = {
     "c-loop": "c_loop",
     "scope": "scope",
     "plants": "plants",
+    "following": "following",
     "controller": "controller",
     "interpreter": "interpreter",
     "round-trip": "round_trip",
@@ -35,6 +36,7 @@ GROUPS = {
     "testing": "testing",
     "client": "client_overhead",
     "rmc": "rmc",
+    "compiled": "compiling",
 }
 """What can be asked for with --only, and the module whose `measure(effort)` does it."""
 

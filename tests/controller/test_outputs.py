@@ -74,6 +74,24 @@ def test_output_on_position_pulses_once_a_passing() -> None:
     assert session.signal("output.25") is False
 
 
+def test_the_passing_has_an_exact_time() -> None:
+    """It lies in the servo sample in which the counter reached the position."""
+    session = Session(COMEXC=1)
+    session.ok("DRIVE1", "OUTFNC25-H", "OUTFEN1", "OUTPA1,0,4000,30", "MC1", "A100", "V5", "GO1")
+    assert session.number("output_on_position.1.time") == -1
+    while session.number("axis1.position.encoder") < 4000:
+        session.emulator.advance_to(session.now_ns + 280_000 - session.now_ns % 280_000)
+    sample_s = session.now_ns / 1e9
+    session.advance(0.01)
+    assert sample_s - 280e-6 <= session.number("output_on_position.1.time") <= sample_s
+    assert session.signal("output.25") is True
+    end_s = session.number("output_on_position.1.time") + 0.03
+    session.advance(end_s - session.now_ns / 1e9 - 1e-6)
+    assert session.signal("output.25") is True
+    session.advance(2e-6)
+    assert session.signal("output.25") is False
+
+
 def test_incremental_output_on_position_repeats() -> None:
     session = Session(COMEXC=1)
     session.ok("DRIVE1", "OUTFNC25-H", "OUTFEN1", "OUTPA1,1,1000,50", "MC1", "A100", "V1", "SGP5", "SGVF20", "GO1")

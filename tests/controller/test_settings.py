@@ -12,8 +12,7 @@ from typing import NamedTuple
 import pytest
 
 from protocol.catalogue import CommandRow, rows
-from protocol.errors import COMMAND_NOT_IMPLEMENTED
-from tests.controller.session import OK, Session
+from tests.controller.session import Session
 
 GROUPS = {"communications", "motion", "servo", "drive", "limits", "scaling"}
 
@@ -389,12 +388,6 @@ class TestOneAxis:
         assert session.query("D") == "D+1000"
 
 
-LATER = [
-    *("GOL11", "FSHFC1", "FSHFD100", "FGADV1", "FMCNEW1", "GOBUF1", "PCOMP P", "PRUN P"),
-    *("PLIN1,1", "PARCM5,5,5", "PARCP1,1,1,1", "TPCA"),
-]
-"""Other issues' work: Following, compiled motion, registration, contouring, linear interpolation."""
-
 OTHER_PRODUCTS = {
     "FMAXA": "COMMAND NOT IMPLEMENTED",
     "OUTPC": "INCORRECT AXIS",
@@ -405,12 +398,6 @@ LATER_FAMILIES = ("FVMFRQ100", "OPTEN1", "BAUD9600")
 
 
 class TestNotThere:
-    @pytest.mark.parametrize("text", LATER)
-    def test_commands_of_other_issues(self, text: str) -> None:
-        session = Session()
-        assert session.error(text) == COMMAND_NOT_IMPLEMENTED
-        assert session.ask("") == OK, "and nothing else"
-
     @pytest.mark.parametrize("name", OTHER_PRODUCTS)
     def test_other_products(self, name: str) -> None:
         assert Session().error(f"{name}1") == OTHER_PRODUCTS[name]

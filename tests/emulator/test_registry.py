@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import inspect
+from fractions import Fraction
 
 import pytest
 
 from emulator import Emulator, Machine
 from emulator.emulator import Unit
+from emulator.engine import MasterSource, plan_ratio_change
 from emulator.registry import ACTIONS, Value, describe_signals
 
 SYSTEM_S = 2.24e-3
@@ -60,11 +62,48 @@ class TestMachine:
         assert unit.signals["axis1.drive"] is False
         assert unit.signals["axis2.drive"] is True
 
+    def test_a_conveyor_turns_an_encoder_as_a_test_says(self, emulator: Emulator, unit: Unit) -> None:
+        unit.do("drive_encoder", axis=2, velocity=10_000.0, ramp=0.0)
+        emulator.advance(0.5)
+        assert unit.signals["axis2.position.encoder"] == pytest.approx(5000, abs=5)
+        unit.do("drive_encoder", axis=2, velocity=0.0, ramp=0.1)
+        emulator.advance(0.2)
+        assert unit.signals["axis2.position.encoder"] == pytest.approx(5500, abs=5)
+        here = int(unit.signals["axis2.position.encoder"])
+        unit.do("turn_encoder", axis=2, counts=-1000, velocity=50_000.0)
+        emulator.advance(0.2)
+        assert unit.signals["axis2.position.encoder"] == here - 1000
+        unit.do("release_encoder", axis=2)
+        emulator.advance(0.1)
+        assert unit.signals["axis2.position.encoder"] == here - 1000
+        with pytest.raises(ValueError, match="not 2000000000"):
+            unit.do("drive_encoder", axis=2, velocity=2e9, ramp=0.0)
+
     def test_a_slip_is_seen_at_once(self, unit: Unit) -> None:
         unit.do("slip_encoder", axis=2, counts=-40)
         assert ask(unit, "2TPE") == "*2TPE-40"
         with pytest.raises(ValueError, match="normal or reversed or open"):
             unit.do("wire_encoder", axis=1, wiring="cut")
+
+
+class TestFollowingSignals:
+    def test_what_a_slave_and_its_master_do(self, emulator: Emulator, unit: Unit) -> None:
+        unit.send(b"DRIVE1\r")
+        engine = unit.controller.engine
+        engine.set_master(0, source=MasterSource.ENCODER, master_index=1)
+        engine.set_master_cycle(0, 1000)
+        engine.start_following(0, plan_ratio_change(Fraction(0), Fraction(3, 2), 0), preset=False)
+        unit.do("drive_encoder", axis=2, velocity=10_000.0, ramp=0.1)
+        emulator.advance(0.5)
+        assert unit.signals["axis1.slave.ratio"] == 1.5
+        assert unit.signals["axis1.master.cycle"] == 4
+        assert unit.signals["axis1.master.position"] == pytest.approx(500, abs=30)
+        assert unit.signals["axis1.master.velocity"] == pytest.approx(10_000, rel=0.05)
+        assert unit.signals["axis1.slave.position"] == pytest.approx(6750, abs=50)
+        assert unit.signals["axis1.slave.shift"] == 0.0
+        unit.do("turn_encoder", axis=2, counts=0, velocity=0.0)
+        emulator.advance(0.1)
+        assert unit.signals["axis1.master.velocity"] == 0.0
 
 
 class TestSignals:

@@ -48,7 +48,7 @@ class Rig:
 
     def step(self, volts: float) -> None:
         step_plant(self._axis, self._plant, volts)
-        read_encoder(self._axis)
+        read_encoder(self._axis, 0)
 
     def record(self, names: Sequence[str], volts: Iterable[float]) -> np.ndarray:
         """One row a step."""

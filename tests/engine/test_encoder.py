@@ -34,19 +34,19 @@ def test_the_encoder_counts_whole_edges_passed(positions: list[float], phase: fl
     for position in positions:
         before = int(axis["encoder_counts"])
         axis["true_position"] = position
-        take_feedback(axis)
+        take_feedback(axis, 0)
         assert axis["encoder_counts"] == axis["feedback_counts"] == math.floor(position * 4000.0 + phase)
         assert axis["previous_feedback_counts"] == before
 
 
 def test_turning_the_polarity_round_does_not_move_the_position() -> None:
     axis = encoder(true_position=1.0)
-    read_encoder(axis)
+    read_encoder(axis, 0)
     axis["encoder_sign"] = -1
-    read_encoder(axis)
+    read_encoder(axis, 0)
     assert axis["encoder_counts"] == 4000
     axis["true_position"] = 1.25
-    read_encoder(axis)
+    read_encoder(axis, 0)
     assert axis["encoder_counts"] == 3000
 
 
@@ -57,7 +57,7 @@ def test_counts_beyond_the_greatest_rate_are_lost(rate: float) -> None:
         axis = encoder(EncoderTraits(max_rate_counts_s=rate))
         for sample in range(1, samples + 1):
             axis["true_position"] = speed_counts_s * sample * PERIOD_S / 4000.0
-            read_encoder(axis)
+            read_encoder(axis, 0)
         possible = math.copysign(min(abs(speed_counts_s), rate), speed_counts_s)
         assert int(axis["encoder_counts"]) == pytest.approx(possible * samples * PERIOD_S, abs=1.5)
 
@@ -66,7 +66,7 @@ def test_an_axis_at_the_units_greatest_speed_loses_nothing() -> None:
     axis = encoder(EncoderTraits(max_rate_counts_s=1_600_000.0))
     for sample in range(1, 1000):
         axis["true_position"] = 200.0 * sample * PERIOD_S
-        read_encoder(axis)
+        read_encoder(axis, 0)
     assert axis["encoder_counts"] == math.floor(200.0 * 999 * PERIOD_S * 4000.0)
 
 
@@ -74,7 +74,7 @@ def noisy_counts(seed: int, axis_index: int = 0, *, rms: float = 50.0, count: in
     axis = encoder(EncoderTraits(noise_counts_rms=rms, noise_seed=seed), axis_index=axis_index)
     counts = []
     for _ in range(count):
-        read_encoder(axis)
+        read_encoder(axis, 0)
         counts.append(int(axis["encoder_counts"]))
     return np.array(counts)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from emulator.engine import AxisHardware, Engine, Event, Gains, UnitFactors, plan_preset, rates_for
-from emulator.engine.layout import AXIS_FIELDS, SEGMENT_FIELDS, UNIT_FIELDS, WATCH_FIELDS, description
+from emulator.engine.layout import AXIS_FIELDS, RATIO_FIELDS, SEGMENT_FIELDS, UNIT_FIELDS, WATCH_FIELDS, description
 from emulator.engine.status import DRIVE_FAULT
 
 MakeEngine = Callable[..., Engine]
@@ -136,7 +136,7 @@ def test_fourteen_axes_move_apart() -> None:
     assert [engine.commanded_position(i) for i in range(14)] == [100 * (i + 1) for i in range(14)]
 
 
-@pytest.mark.parametrize("fields", [UNIT_FIELDS, AXIS_FIELDS, SEGMENT_FIELDS, WATCH_FIELDS])
+@pytest.mark.parametrize("fields", [UNIT_FIELDS, AXIS_FIELDS, SEGMENT_FIELDS, RATIO_FIELDS, WATCH_FIELDS])
 def test_every_field_of_the_records_is_explained(fields: tuple) -> None:
     texts = description(fields)
     assert len(texts) == len(fields)

@@ -19,6 +19,7 @@ from emulator.engine import (
     plan_preset,
     wire_mask,
 )
+from emulator.engine.watches import WATCH_SLOTS
 
 MakeEngine = Callable[..., Engine]
 
@@ -204,7 +205,7 @@ def test_watches_live_side_by_side_on_two_axes_and_can_be_cleared(make_engine: M
 def test_watches_that_cannot_be(make_engine: MakeEngine) -> None:
     engine = make_engine()
     with pytest.raises(ValueError, match="slots"):
-        engine.watch_value(8, 0, "PC", "=", 0)
+        engine.watch_value(WATCH_SLOTS, 0, "PC", "=", 0)
     with pytest.raises(ValueError, match="relation"):
         engine.watch_value(0, 0, "PC", "==", 0)
     with pytest.raises(KeyError):

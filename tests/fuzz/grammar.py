@@ -44,7 +44,8 @@ def session(random: Random, commands: int) -> list[str]:
     """About `commands` commands, one a line: definitions of programs among single commands."""
     lines: list[str] = []
     while len(lines) < commands:
-        lines += definition(random) if random.random() < 0.15 else [statement(random)]
+        kind = random.random()
+        lines += definition(random) if kind < 0.15 else contour(random) if kind < 0.18 else [statement(random)]
     return lines
 
 
@@ -53,6 +54,23 @@ def definition(random: Random) -> list[str]:
     name = random.choice(PROGRAM_NAMES)
     lines = [f"DEL {name}", f"DEF {name}", *block(random, 0), "END"]
     return [*lines, random.choice((name, f"RUN {name}", f"GOSUB {name}"))] if random.random() < 0.7 else lines
+
+
+def contour(random: Random) -> list[str]:
+    """A path, possible or not, compiled and started, and perhaps stopped."""
+    name = random.choice(PROGRAM_NAMES)
+    lines = [f"DEL {name}", f"DEF {name}", *(path_command(random) for _ in range(random.randint(1, 6))), "END"]
+    return [*lines, f"PCOMP {name}", f"PRUN {name}", random.choice(("!S", "!1K", "GOL", "PUCOMP " + name, "TSEG"))]
+
+
+def path_command(random: Random) -> str:
+    """A line or an arc most of the time; distances from none to the largest."""
+    if random.random() < 0.3:
+        return random.choice(
+            (*("PAB1", "PAB0", "PL1", "PLC5,5", "PWC0,0", "PV0.1", "PV100", "PRTOL50", "PA9"), "POUT1X0")
+        )
+    command, fields = random.choice((("PLIN", 2), ("PARCM", 3), ("PARCP", 3), ("PARCOM", 4), ("PARCOP", 4)))
+    return command + ",".join(str(random.choice((0, 1, -7, 100, -4000, 30000, 999999999))) for _ in range(fields))
 
 
 def block(random: Random, depth: int) -> list[str]:
@@ -230,6 +248,7 @@ _STATEMENTS: tuple[Maker, ...] = (
     _text,
     _wires,
     _program_command,
+    _of("GOL", "GOL10", "1GOL", "PV5", "PCOMP MAIN", "PRUN MAIN"),
     _of("GO11", "1GO", "2GO", "S", "K", "1S", "PSET0,0", "DRIVE11", "DRIVE00", "COMEXC1", "COMEXC0", "HOM00", "@V2"),
     _of(
         "VAR1", "VARB1", "VARS1", "TIMST0", "TIMSTP", "TTIM", "T.02", "DATRST1,1", "DATPTR1,1,1", "VAR3=DAT1", "PS", "C"

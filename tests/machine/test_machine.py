@@ -162,7 +162,7 @@ PROBLEMS = [
     ("[defaults]\nECHO = ''", "defaults.ECHO", "''", "a value is needed"),
     ("[defaults]\nECHO = {a = 1}", "defaults.ECHO", "{'a': 1}", "a number, a text, or a list"),
     # keys of commands that are not part of this machine yet
-    ("[following]\npredictor = 1", "following", "a table", "keys identity"),
+    ("[following]\npredictor = 1", "following.predictor", "1", "'one_sample' or 'two_samples'"),
     ("[rcm]\nport = 502", "rcm", "a table", "keys identity"),
 ]
 
@@ -227,3 +227,17 @@ def test_an_analog_feedback_sensor_belongs_to_its_axis() -> None:
     machine = Machine.parse("[options]\nani = true\n[axis2.ani]\nvolts_per_rev = -0.5\n")
     assert machine.options.ani
     assert (machine.axis1.ani.volts_per_rev, machine.axis2.ani.volts_per_rev) == (1.0, -0.5)
+
+
+@pytest.mark.parametrize(
+    ("fields", "found"), [('"+14,0"', "'+14,0'"), ('"+31"', "'+31'"), ('"22"', "'22'"), ("[21, 21]", "'21,21'")]
+)
+def test_a_master_that_no_host_could_assign_is_refused(fields: str, found: str) -> None:
+    with pytest.raises(MachineError, match=r"mine\.toml: defaults\.FOLMAS: found ") as refused:
+        Machine.parse(f"[defaults]\nFOLMAS = {fields}", name="mine.toml")
+    assert found in str(refused.value)
+
+
+def test_a_unit_may_come_up_as_a_slave() -> None:
+    machine = Machine.parse('[defaults]\nFOLMAS = "+21,0"\nFOLEN = "10"')
+    assert machine.defaults["FOLMAS"] == "+21,0"

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from decimal import ROUND_DOWN, Decimal
+from functools import partial
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, applies, handles, require_rest
 from emulator.controller.faults import CLEARED_BY_GO, clear_without_cause
+from emulator.controller.motion.following import moves
+from emulator.controller.motion.following.assignment import is_following
+from emulator.controller.motion.following.go_wait import motion_wait
 from emulator.controller.motion.limits import limit_in_the_way
-from emulator.controller.waits import MotionWait
+from emulator.controller.motion.targets import preset_target
 from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
 from protocol.command import Command
 from protocol.errors import (
@@ -45,14 +50,33 @@ CLEARED_BY_LEGAL_GO = (
 def go(controller: Controller, command: Command) -> Lines:
     """GO: start the loaded profile on the axes named, or on all whose drive is on."""
     axes = _axes_to_start(controller, command)
+    controller.held_starts.withdraw(axes)
     for axis_index in axes:
-        check_s_curve(controller, axis_index)
+        check_move(controller, axis_index)
     controller.faults.clear(CLEARED_BY_GO)
     for axis_index in axes:
-        start(controller, axis_index)
+        begin_at = _begin_at(controller, axis_index) if is_following(controller, axis_index) else None
+        controller.held_starts.start((axis_index,), partial(start, controller, axis_index), begin_at=begin_at)
     if not controller.settings.flag("COMEXC") and axes:
-        controller.interpreter.wait_for(MotionWait(tuple(axes)))
+        controller.interpreter.wait_for(motion_wait(controller, axes))
     return None
+
+
+def _begin_at(controller: Controller, axis_index: int) -> Callable[[int], None]:
+    """What starts a slave where its master comes to a position."""
+    return lambda master_travel: start(controller, axis_index, at_master=master_travel)
+
+
+def check_move(controller: Controller, axis_index: int) -> None:
+    """Refuse a move that the settings of its axis do not make, in time (A, AD ...) or by its master (FOLRN ...).
+
+    Raises:
+        CommandError: INVALID CONDITIONS FOR S_CURVE ..., and what ``following.moves.check_go`` refuses.
+    """
+    if is_following(controller, axis_index):
+        moves.check_go(controller, axis_index)
+    else:
+        check_s_curve(controller, axis_index)
 
 
 def _axes_to_start(controller: Controller, command: Command) -> list[int]:
@@ -73,11 +97,12 @@ def _axes_to_start(controller: Controller, command: Command) -> list[int]:
 
 
 def check_ready(controller: Controller, axes: Iterable[int]) -> None:
-    """Refuse to start axes that cannot move, or that homing, jogging or the joystick moves already.
+    """Refuse to start axes that cannot move, or that homing, jogging, the joystick, a path or a compiled profile moves
+    already.
 
     Raises:
         CommandError: ENABLE open, drive shut down, open loop, MOTION IN PROGRESS (for the jog and joystick modes
-            assumed: a C host of 6K units saw it with the joystick on).
+            assumed: a C host of 6K units saw it with the joystick on; for paths assumed).
     """
     if not controller.wiring.enable_grounded:
         raise CommandError(ENABLE_INPUT_INACTIVE)
@@ -87,7 +112,8 @@ def check_ready(controller: Controller, axes: Iterable[int]) -> None:
         if controller.settings.integer("SFB", axis_index) == OPEN_LOOP:
             raise CommandError(NOT_ALLOWED_IF_SFB0)
         by_hand = controller.settings.flag("JOG", axis_index) or controller.settings.flag("JOY", axis_index)
-        if by_hand or controller.homing.active(axis_index):
+        by_others = controller.paths.carries(axis_index) or controller.compiled.moves(axis_index)
+        if by_hand or by_others or controller.homing.active(axis_index):
             raise CommandError(MOTION_IN_PROGRESS)
 
 
@@ -121,57 +147,94 @@ def check_s_curve(controller: Controller, axis_index: int, family: str = "") -> 
         raise s_curve_deceleration(axis_index + 1)
 
 
-def start(controller: Controller, axis_index: int) -> None:
-    """Start one axis: nothing moves into an active limit, a target that cannot be reached stops the axis."""
-    engine = controller.engine
-    if controller.settings.flag("MC", axis_index):
-        direction = 1 if controller.settings.counts("D", axis_index) >= 0 else -1
-        if controller.settings.counts("V", axis_index) == 0:
-            direction = 0
-    else:
-        distance = preset_target(controller, axis_index) - engine.profile_state(axis_index).position
-        direction = (distance > 0) - (distance < 0)
+def start(controller: Controller, axis_index: int, *, at_master: int | None = None) -> None:
+    """Start one axis, moving or not: nothing moves into an active limit; a preset move that cannot be had from the
+    present motion leaves that as it is, with AS bit 30 and ER bit 10 (assumed M).
+
+    ``at_master`` is a master position to come, at which a slave is to begin.  A move that was legal when it was
+    commanded and is no longer when what it waited for comes does not start (assumed).
+    """
+    with suppress(CommandError):
+        if is_following(controller, axis_index):
+            _start_following(controller, axis_index, at_master)
+        else:
+            check_s_curve(controller, axis_index)
+            _start_in_time(controller, axis_index)
+
+
+def _start_in_time(controller: Controller, axis_index: int) -> None:
+    direction = _direction(controller, axis_index)
+    segments: Segments = ()
+    if limit_in_the_way(controller, axis_index, direction) is None:
+        try:
+            segments = _profile(controller, axis_index, direction)
+        except TargetOvershot:
+            controller.engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
+            controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
+            return
+    if allow_motion(controller, axis_index, direction) and segments:
+        controller.registration.watch(axis_index)
+        controller.engine.start_profile(axis_index, segments)
+
+
+def _start_following(controller: Controller, axis_index: int, at_master: int | None) -> None:
+    if allow_motion(controller, axis_index, moves.direction(controller, axis_index)):
+        moves.start_move(controller, axis_index, start_at=at_master)
+
+
+def _direction(controller: Controller, axis_index: int) -> int:
+    """Which way a move in time would go: +1, -1, or 0 for no move."""
+    if not controller.settings.flag("MC", axis_index):
+        distance = preset_target(controller, axis_index) - controller.engine.profile_state(axis_index).position
+        return (distance > 0) - (distance < 0)
+    if controller.settings.counts("V", axis_index) == 0:
+        return 0
+    return 1 if controller.settings.counts("D", axis_index) >= 0 else -1
+
+
+def allow_motion(controller: Controller, axis_index: int, direction: int) -> bool:
+    """Whether no active limit lies in a direction: then what earlier moves have left in AS and ER is cleared.
+
+    Otherwise the limit is latched, AS 15 to 18 and ER 2 or 3.
+    """
+    if held_by_limit(controller, axis_index, direction):
+        return False
+    forget_refusals(controller, axis_index)
+    return True
+
+
+def held_by_limit(controller: Controller, axis_index: int, direction: int) -> bool:
+    """Whether a limit forbids to set out in a direction; if so its AS and ER bits are set."""
     hit = limit_in_the_way(controller, axis_index, direction)
     if hit is not None:
-        engine.latch_status(axis_index, hit.axis_bit.mask)
+        controller.engine.latch_status(axis_index, hit.axis_bit.mask)
         controller.faults.latch(hit.error_bit)
-        return
-    in_zone = engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
-    engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
+    return hit is not None
+
+
+def forget_refusals(controller: Controller, axis_index: int) -> None:
+    """A legal start clears the bits of limits met and zones missed before."""
+    in_zone = controller.engine.status(axis_index) & AxisStatus.IN_TARGET_ZONE.mask
+    controller.engine.clear_status(axis_index, CLEARED_BY_LEGAL_GO)
     clear_without_cause(controller, ErrorStatus.HARD_LIMIT_HIT, ErrorStatus.SOFT_LIMIT_HIT)
     if in_zone:
         clear_without_cause(controller, ErrorStatus.TARGET_ZONE_TIMEOUT)
-    if controller.settings.flag("MC", axis_index):
-        engine.start_profile(axis_index, _continuous(controller, axis_index, direction))
-    else:
-        _start_preset(controller, axis_index)
 
 
-def preset_target(controller: Controller, axis_index: int) -> int:
-    """Where a preset move ends, whole counts: D x SCLD truncated; relative to the commanded position with MA0.
+def _profile(controller: Controller, axis_index: int, direction: int) -> Segments:
+    """The profile GO starts; none for a preset move that goes nowhere.
 
-    A move that pre-empts another counts from where the axis is commanded to be at that moment (assumed).
+    Raises:
+        TargetOvershot: the axis moves, and its target lies behind it or within its braking distance.
     """
-    counts = int(controller.settings.counts("D", axis_index).to_integral_value(ROUND_DOWN))
-    if controller.settings.flag("MA", axis_index):
-        return counts
-    return controller.engine.commanded_position(axis_index) + counts
-
-
-def _start_preset(controller: Controller, axis_index: int) -> None:
-    engine = controller.engine
-    state = engine.profile_state(axis_index)
+    if controller.settings.flag("MC", axis_index):
+        return _continuous(controller, axis_index, direction)
+    state = controller.engine.profile_state(axis_index)
     target = preset_target(controller, axis_index)
     velocity = float(controller.settings.counts("V", axis_index))
     if velocity == 0 or (target == state.position and state.velocity == 0):
-        return
-    try:
-        segments = plan_preset(state.position, state.velocity, target, velocity, *ramps(controller, axis_index))
-    except TargetOvershot:
-        engine.latch_status(axis_index, AxisStatus.PRESET_MOVE_OVERSHOT.mask)
-        controller.faults.latch(ErrorStatus.PRESET_MOVE_OVERSHOT)
-        segments = stop_segments(controller, axis_index, "AD")
-    engine.start_profile(axis_index, segments)
+        return ()
+    return plan_preset(state.position, state.velocity, target, velocity, *ramps(controller, axis_index))
 
 
 def _continuous(controller: Controller, axis_index: int, direction: int) -> Segments:

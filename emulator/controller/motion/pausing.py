@@ -13,6 +13,7 @@ from emulator.engine import TargetOvershot, plan_continuous, plan_preset
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
+    from emulator.controller.paths.motion import PathMotion
 
 
 class PausedMove(NamedTuple):
@@ -28,6 +29,7 @@ class Pausing:
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
         self._moves: dict[int, PausedMove] = {}
+        self._paths: list[PathMotion] = []
 
     def pause(self) -> None:
         """Hold the program; with COMEXR1 decelerate every moving axis and remember what it was doing."""
@@ -36,13 +38,19 @@ class Pausing:
         if not controller.settings.flag("COMEXR"):
             return
         engine = controller.engine
+        self._paths = controller.paths.under_way()
         moving = [i for i in range(controller.settings.axes) if engine.is_moving(i)]
         self._moves = {axis_index: self._move(axis_index) for axis_index in moving if self._resumable(axis_index)}
         stop_axes(controller, moving, "AD")
 
     def _resumable(self, axis_index: int) -> bool:
-        """Homing, jogging and the joystick do not go on after a pause (assumed)."""
+        """Homing, jogging, the joystick, Following and compiled profiles do not go on after a pause (assumed); paths
+        do, as a whole."""
+        if self._controller.paths.carries(axis_index) or self._controller.engine.is_following(axis_index):
+            return False
         by_hand = any(self._controller.settings.flag(mode, axis_index) for mode in ("JOG", "JOY"))
+        if self._controller.compiled.moves(axis_index):
+            return False
         return not by_hand and not self._controller.homing.active(axis_index)
 
     def _move(self, axis_index: int) -> PausedMove:
@@ -56,11 +64,14 @@ class Pausing:
     def go_on(self) -> None:
         """Resume paused motion and the program."""
         moves, self._moves = self._moves, {}
+        paths, self._paths = self._paths, []
         if not self._controller.interpreter.paused:
             return
         for axis_index, move in moves.items():
             if self._controller.engine.is_enabled(axis_index):
                 self._resume(axis_index, move)
+        for motion in paths:
+            self._controller.paths.resume(motion)
         self._controller.interpreter.paused = False
 
     def _resume(self, axis_index: int, move: PausedMove) -> None:
@@ -82,3 +93,4 @@ class Pausing:
     def forget(self) -> None:
         """A stop or kill ends what was paused."""
         self._moves.clear()
+        self._paths.clear()

@@ -21,16 +21,22 @@ KEEP_SELECTION = 2
 
 
 def stop_axes(controller: Controller, axes: Iterable[int], ramp: str) -> None:
-    """Bring moving axes to rest at a deceleration setting (AD, LHAD); homing and joystick mode end."""
+    """Bring moving axes to rest at a deceleration setting (AD, LHAD); homing, joystick mode and starts that
+    wait end."""
     for axis_index in axes:
         controller.homing.abort(axis_index)
         controller.joystick.leave(axis_index)
+        controller.held_starts.forget((axis_index,))
         brake(controller, axis_index, ramp)
 
 
 def brake(controller: Controller, axis_index: int, ramp: str) -> None:
-    """Bring an axis to rest, if it moves, at a deceleration setting (AD, LHAD, LSAD)."""
-    if controller.engine.is_moving(axis_index):
+    """Bring an axis to rest, if it moves, at a deceleration setting (AD, LHAD, LSAD), on a path all axes of it; no
+    trigger registers then."""
+    controller.registration.forget(axis_index)
+    if controller.paths.carries(axis_index):
+        controller.paths.brake(axis_index, ramp)
+    elif controller.engine.is_moving(axis_index):
         controller.engine.start_profile(axis_index, stop_segments(controller, axis_index, ramp))
 
 
@@ -93,6 +99,7 @@ def end_of_travel(controller: Controller, axis_index: int, ramp: str, bit: Error
     """A hard (LHAD) or soft (LSAD) limit was run into: stop the axis; without COMEXL1 nothing after it is carried
     out."""
     controller.homing.abort(axis_index)
+    controller.held_starts.forget((axis_index,))
     brake(controller, axis_index, ramp)
     controller.faults.latch(bit)
     if not controller.settings.flag("COMEXL", axis_index):

@@ -12,6 +12,9 @@ from protocol.reply import ReplyLine
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
 
+COMPILED = " COMPILED AS A PATH"
+"""What TDIR adds to a program that is compiled, an individual-axis profile too (assumed M)."""
+
 
 @handles("TPROG")
 def list_program(controller: Controller, command: Command) -> Lines:
@@ -29,9 +32,9 @@ def memory_free(controller: Controller, command: Command) -> Lines:
 @handles("TDIR")
 def directory(controller: Controller, command: Command) -> Lines:
     """TDIR: the programs, then the memory lines (text assumed M)."""
-    programs = controller.programs
+    programs, compiled = controller.programs, controller.compiled
     lines = [
-        ReplyLine("", f"{number} - {name} USES {programs.bytes_used(name)} BYTES")
+        ReplyLine("", f"{number} - {name} USES {programs.bytes_used(name)} BYTES{COMPILED * compiled.has(name)}")
         for number, name in enumerate(programs.names, start=1)
     ]
     return [*(lines or [ReplyLine("", "NO PROGRAMS DEFINED")]), *memory_lines(controller)]
@@ -56,10 +59,11 @@ def executing(controller: Controller, command: Command) -> Lines:
 
 def memory_lines(controller: Controller) -> list[ReplyLine]:
     """Free program bytes and compiled segments; percent rounded."""
-    memory = controller.machine.memory
     free, capacity = controller.programs.bytes_free, controller.programs.capacity_bytes
-    segments = controller.settings.integer("MEMORY", 1) // memory.segment_bytes
+    left, segments = controller.compiled.free, controller.compiled.capacity
     return [
         ReplyLine("", f"{free} OF {capacity} BYTES ({round(100 * free / capacity)}%) PROGRAM MEMORY REMAINING"),
-        ReplyLine("", f"{segments} OF {segments} SEGMENTS (100%) COMPILED MEMORY REMAINING"),
+        ReplyLine(
+            "", f"{left} OF {segments} SEGMENTS ({round(100 * left / max(segments, 1))}%) COMPILED MEMORY REMAINING"
+        ),
     ]

@@ -354,15 +354,23 @@ def end(controller: Controller, command: Command) -> Lines:
 def delete(controller: Controller, command: Command) -> Lines:
     """DEL name; a name that does not exist is accepted, because scripts send DEL before DEF."""
     require_access(controller)
-    if not controller.programs.delete(name_of(command)) and controller.machine.del_missing_is_error:
+    name = name_of(command)
+    if controller.compiled.running(name):
+        raise CommandError(INVALID_CONDITIONS)
+    deleted = controller.programs.delete(name)
+    controller.compiled.remove(name)
+    if not deleted and controller.machine.del_missing_is_error:
         raise CommandError(UNDEFINED_LABEL)
     return None
 
 
 @handles("ERASE")
 def erase(controller: Controller, command: Command) -> Lines:
-    """ERASE: what runs ends first (assumed)."""
+    """ERASE: what runs ends first (assumed), but compiled motion under way keeps its segments: it is refused then."""
     require_access(controller)
+    if controller.compiled.any_running:
+        raise CommandError(INVALID_CONDITIONS)
+    controller.compiled.clear()
     controller.interpreter.halt()
     controller.programs.erase()
     return None
@@ -407,6 +415,7 @@ def divide_memory(controller: Controller, command: Command) -> Lines:
     if controller.programs.running:
         raise CommandError(INVALID_CONDITIONS)
     store_setting(controller, command)
+    controller.compiled.clear()
     controller.programs.erase()
     return None
 

@@ -7,11 +7,13 @@ changes only through events and commands that wake the interpreter anyway.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller import words
+from emulator.controller.motion.following.cycles import CycleStart, position_since, travel_at
+from emulator.controller.motion.following.status import bits_to_watch, following_status
 from emulator.controller.readings import READINGS, SETTING_OPERANDS, VOLT_PLACES, reading_in_user_units
 from emulator.controller.variables.data_statements import MAX_DATA_PROGRAMS
 from emulator.controller.variables.store import WAITED_FOR
@@ -20,7 +22,8 @@ from emulator.engine import Signal
 from emulator.engine.engine import FIRST_LASTING_WATCH
 from protocol.condition import Condition, Operand, Relation, Value, evaluate, relations
 from protocol.errors import COMMAND_NOT_IMPLEMENTED, INCORRECT_AXIS, INCORRECT_DATA, INVALID_DATA, CommandError
-from protocol.expression import RADIAN_MODE, Expression, evaluator, operands_in
+from protocol.expression import RADIAN_MODE, Expression, Read, evaluator, operands_in
+from protocol.numbers import divide
 from protocol.status import AxisStatus
 
 if TYPE_CHECKING:
@@ -58,7 +61,7 @@ _UNIT_WORDS: dict[str, Callable[[Controller], str]] = {
     "US": words.user_status,
     "SC": lambda controller: "0" * words.WORD,
 }
-_AXIS_WORDS = {"AS": words.axis_status, "ASX": words.extended_axis_status}
+_AXIS_WORDS = {"AS": words.axis_status, "ASX": words.extended_axis_status, "FS": following_status}
 _OPPOSITE = {"=": "<>", "<>": "=", "<": ">=", ">": "<=", "<=": ">", ">=": "<"}
 
 
@@ -68,6 +71,7 @@ class Operands:
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
         self._timer_look_ns = NEVER
+        self._cycles: Mapping[int, CycleStart] = {}
 
     def read(self, operand: Operand) -> Value:
         """The present value: a bit text for words, a number otherwise.
@@ -91,46 +95,71 @@ class Operands:
             return self._controller.settings.value_in_user_units(name, self._axis_index(operand))
         raise CommandError(INCORRECT_DATA if name in WAITED_FOR else COMMAND_NOT_IMPLEMENTED)
 
+    def reader(self, cycles: Mapping[int, CycleStart]) -> Read:
+        """As ``read``, with PMAS counted on from these master cycles, by axis index."""
+
+        def read(operand: Operand) -> Value:
+            if operand.name != "PMAS":
+                return self.read(operand)
+            axis_index = self._axis_index(operand)
+            controller = self._controller
+            factor = controller.settings.reading_factor("master", axis_index)
+            return divide(Decimal(position_since(controller, axis_index, cycles[axis_index])), factor)
+
+        return read
+
     def _axis_index(self, operand: Operand) -> int:
         axis = operand.axis or UNPREFIXED_AXIS
         if not 1 <= axis <= self._controller.settings.axes_in_use:
             raise CommandError(INCORRECT_AXIS)
         return axis - 1
 
-    def arm_watches(self, condition: Condition) -> None:
+    def arm_watches(self, condition: Condition, cycles: Mapping[int, CycleStart]) -> None:
         """Have the unit look again when anything the condition depends on has changed.
 
         The engine has a few value watches; a condition with more readings is looked at again at the next system update.
         """
         engine = self._controller.engine
         engine.clear_watches()
+        self._cycles = cycles
         masks: dict[int, int] = {}
+        following: dict[int, int] = {}
         slots = iter(range(VALUE_WATCH_SLOTS))
         for relation in relations(condition):
             depends_on = [*operands_in(relation.left), *operands_in(relation.right)]
             for operand in depends_on:
                 self._add_status_bits(masks, operand)
+                if operand.name == "FS":
+                    axis_index = self._axis_index(operand)
+                    following[axis_index] = following.get(axis_index, 0) | bits_to_watch(operand.bit)
+                    if self._controller.ratio_moves.advancing(axis_index):
+                        self._look_at_next_update()
                 if operand.name in Signal.__members__:
                     self._watch_reading(next(slots, None), relation, operand)
             if any(operand.name == "TIM" for operand in depends_on):
                 self._arm_timer(relation)
         for axis_index, mask in masks.items():
             engine.watch_status(axis_index, mask)
+        for axis_index, mask in following.items():
+            engine.watch_following(axis_index, mask)
 
     def _add_status_bits(self, masks: dict[int, int], operand: Operand) -> None:
         if operand.name == "AS":
             axis_index = self._axis_index(operand)
-            masks[axis_index] = masks.get(axis_index, 0) | (1 << (operand.bit - 1) if operand.bit else 0xFFFFFFFF)
+            masks[axis_index] = masks.get(axis_index, 0) | _mask(operand.bit)
         elif operand.name == "MOV":
             for axis_index in range(self._controller.settings.axes_in_use):
                 masks[axis_index] = masks.get(axis_index, 0) | AxisStatus.MOVING.mask
 
     def _watch_reading(self, slot: int | None, relation: Relation, operand: Operand) -> None:
         if slot is None:
-            controller = self._controller
-            controller.alarms.at(controller.engine.next_system_update_ns, _look_again)
+            self._look_at_next_update()
         else:
             self._arm(slot, relation, operand)
+
+    def _look_at_next_update(self) -> None:
+        controller = self._controller
+        controller.alarms.at(controller.engine.next_system_update_ns, _look_again)
 
     def _arm(self, slot: int, relation: Relation, operand: Operand) -> None:
         """A lone reading against what stands still: the crossing counts; otherwise any change of it may."""
@@ -143,12 +172,17 @@ class Operands:
             self._controller.engine.watch_value(slot, axis_index, operand.name, "<>", float(present))
 
     def _arm_crossing(self, slot: int, relation: Relation, operand: Operand) -> None:
-        sign = _OPPOSITE[relation.sign] if evaluate(relation, self.read) else relation.sign
+        controller = self._controller
+        sign = _OPPOSITE[relation.sign] if evaluate(relation, self.reader(self._cycles)) else relation.sign
         axis_index = self._axis_index(operand)
         scale = READINGS[operand.name].scale
-        factor = self._controller.settings.reading_factor(scale, axis_index) if scale else 1
+        factor = controller.settings.reading_factor(scale, axis_index) if scale else 1
         counts = self._number(relation.right) * factor
-        self._controller.engine.watch_value(slot, axis_index, operand.name, sign, float(counts))
+        if operand.name == "PMAS":
+            cycle_began = travel_at(controller, axis_index, self._cycles[axis_index], 0)
+            controller.engine.watch_value(slot, axis_index, Signal.MASTER, sign, float(cycle_began + counts))
+        else:
+            controller.engine.watch_value(slot, axis_index, operand.name, sign, float(counts))
 
     def _number(self, expression: Expression) -> Decimal:
         value = evaluator(expression)(self.read)
@@ -175,6 +209,11 @@ class Operands:
 
 def _look_again() -> None:
     """The alarm alone makes the unit look at what it waits for."""
+
+
+def _mask(bit: int | None) -> int:
+    """The bit of a word, or all of them."""
+    return 0xFFFFFFFF if bit is None else 1 << (bit - 1)
 
 
 def _bit(bits: str, number: int | None) -> str:
@@ -212,9 +251,8 @@ def _read_timer(controller: Controller, operand: Operand) -> Value:
 
 @reads("SEG")
 def _read_free_segments(controller: Controller, operand: Operand) -> Value:
-    """Free segments: none is in use while nothing is compiled."""
-    memory = controller.machine.memory
-    return Decimal(memory.compiled_bytes // memory.segment_bytes)
+    """Free segments of compiled memory."""
+    return Decimal(controller.compiled.free)
 
 
 @reads("ANV")

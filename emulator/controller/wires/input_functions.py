@@ -123,6 +123,7 @@ class InputFunctions:
 
     def refresh(self) -> None:
         """Compare what is active with what was and have the difference acted on, in the order of the letters."""
+        self._controller.captures.arm()
         before, self._active = self._active, self._now_active()
         if before == self._active:
             return

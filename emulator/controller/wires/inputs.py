@@ -104,6 +104,7 @@ class Inputs:
         self._bits = ""
         self._controller.input_functions.refresh()
         self._controller.joystick.refresh()
+        self._controller.held_starts.look()
 
 
 def _bits_of(mask: int) -> list[int]:

@@ -1,7 +1,8 @@
 """OUTPA and OUTPB: an auxiliary output that comes on when the encoder passes a position (OUTFNC25-H, 26-H).
 
-With an on-time of 0 the output follows the comparison.  Otherwise it is on for the time from each passing on; the
-passing is found by a value watch of the servo at a system update, so it is that exact and no more.
+With an on-time of 0 the output follows the comparison.  Otherwise it is on for the time from each passing on, whose
+exact instant the servo finds between its samples, as the unit's hardware compares the encoder all the time (assumed).
+The unit itself hears of a passing at the next system update, and with it whoever reads the output.
 """
 
 from __future__ import annotations
@@ -11,7 +12,6 @@ from decimal import ROUND_DOWN, Decimal
 from typing import TYPE_CHECKING
 
 from emulator.controller.dispatch import Lines, handles
-from emulator.engine.engine import FIRST_LASTING_WATCH
 from protocol.command import Command
 from protocol.errors import INCORRECT_DATA, CommandError, invalid_data_field
 from protocol.numbers import format_signed
@@ -38,18 +38,20 @@ class OutputOnPosition:
     def __init__(self, controller: Controller, axis_index: int) -> None:
         self._controller = controller
         self._axis_index = axis_index
-        self._slot = FIRST_LASTING_WATCH + axis_index
         self._fields = [Decimal(0)] * FIELDS
         self._threshold_counts = 0
         self._upwards = True
         self._until_ns = 0
         self._waits_for_passing = False
+        self.passed_ns: int | None = None
+        """When the position was last passed, virtual ns; None before the first time and with an on-time of 0."""
 
     def power_up(self) -> None:
         """Off."""
-        self._controller.engine.disarm_watch(self._slot)
+        self._controller.engine.compare_no_position(self._axis_index)
         self._fields = [Decimal(0)] * FIELDS
         self._until_ns = 0
+        self.passed_ns = None
 
     @property
     def fields(self) -> list[Decimal]:
@@ -84,7 +86,7 @@ class OutputOnPosition:
         """The four fields changed."""
         self._fields = fields
         self._until_ns = 0
-        self._controller.engine.disarm_watch(self._slot)
+        self._controller.engine.compare_no_position(self._axis_index)
         if not self._enabled:
             return
         step = self._step_counts()
@@ -100,17 +102,20 @@ class OutputOnPosition:
     def _watch(self, *, passing: bool) -> None:
         """Have the servo tell when the position is passed, or when the axis has come back behind it."""
         self._waits_for_passing = passing
-        sign = (">=" if self._upwards else "<=") if passing else ("<" if self._upwards else ">")
-        self._controller.engine.watch_value(self._slot, self._axis_index, "PE", sign, float(self._threshold_counts))
+        upwards = self._upwards == passing
+        behind = 0 if passing else (-1 if self._upwards else 1)
+        self._controller.engine.compare_position(self._axis_index, self._threshold_counts + behind, upwards=upwards)
 
     def check(self) -> None:
-        """A value watch of this axis fired, this one or another."""
-        if not self._enabled or self._fields[3] == 0 or self._waits_for_passing != self._passed():
+        """A value watch of this axis fired, or the position has been passed."""
+        passed_ns = self._controller.engine.passed_position_ns(self._axis_index)
+        if passed_ns is None:
             return
         if not self._waits_for_passing:
             self._watch(passing=True)
             return
-        self._until_ns = self._controller.now_ns + int(self._fields[3]) * NS_PER_MS
+        self.passed_ns = passed_ns
+        self._until_ns = passed_ns + int(self._fields[3]) * NS_PER_MS
         step = self._step_counts()
         if self._incremental and step != 0:
             while self._passed():

@@ -26,18 +26,36 @@ def out(controller: Controller, command: Command) -> Lines:
     if command.is_query:
         bits = words.outputs(controller)
         return [bit_line(bit_of(bits, command.bit)) if command.bit is not None else word_line(row, None, bits)]
-    command = controller.substitute(command)
-    count = controller.output_functions.count
-    if command.bit is not None and not 1 <= command.bit <= count:
-        raise CommandError(INVALID_DATA)
-    if "1" in command.mask[count:]:
-        raise CommandError(INCORRECT_DATA)
-    if command.bit is not None:
-        _refuse_assigned(controller, {command.bit})
-    else:
-        _refuse_assigned(controller, {n for n, digit in enumerate(command.mask, start=1) if digit in "01"})
-    controller.settings.assign(command)
+    switch_outputs(controller, output_pattern(controller, controller.substitute(command)))
     return None
+
+
+def output_pattern(controller: Controller, command: Command) -> str:
+    """What OUT or a POUT makes of the outputs, output 1 first: 0, 1, or X for one that stays as it is.
+
+    Raises:
+        CommandError: an output the unit does not have, or one with a function.
+    """
+    count = controller.output_functions.count
+    if command.bit is not None:
+        if not 1 <= command.bit <= count:
+            raise CommandError(INVALID_DATA)
+        if command.bit_value not in ("0", "1", "X"):
+            raise CommandError(INCORRECT_DATA)
+        pattern = "X" * (command.bit - 1) + command.bit_value
+    else:
+        pattern = command.mask
+    if "1" in pattern[count:]:
+        raise CommandError(INCORRECT_DATA)
+    _refuse_assigned(controller, {n for n, digit in enumerate(pattern, start=1) if digit in "01"})
+    return pattern[:count].ljust(count, "X")
+
+
+def switch_outputs(controller: Controller, pattern: str) -> None:
+    """Switch outputs as ``output_pattern`` says."""
+    bits = controller.settings.bits("OUT")
+    switched = "".join(old if new == "X" else new for old, new in zip(bits, pattern, strict=False))
+    controller.settings.store_bits("OUT", switched + bits[len(switched) :])
 
 
 def _refuse_assigned(controller: Controller, numbers: set[int]) -> None:

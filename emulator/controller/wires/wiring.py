@@ -48,6 +48,8 @@ class Wiring:
         self._input_masks = self._name_inputs()
         self.analog_volts = list(machine.wires.analog)
         self._ani_sensors = [AnalogSensor(axis.ani.volts_at_zero, axis.ani.volts_per_rev) for axis in machine.axes]
+        for trigger_index in range(TRIGGERS):
+            engine.connect_trigger(trigger_index, 1 << (self.inputs + trigger_index))
         self._connect(machine)
 
     def _name_wires(self, axes: int) -> dict[str, int]:
@@ -101,20 +103,22 @@ class Wiring:
         return bool(self._engine.inputs & self._input_masks[name])
 
     def closed_at_rest(self, name: str) -> bool:
-        """Whether a contact is closed while no switch along the travel is operated; KeyError as ``closed``."""
+        """Whether a contact is closed while no switch along the travel, and no mark sensor, is operated;
+        KeyError as ``closed``."""
         if name in self._masks:
             return bool(self._engine.resting_wires & self._masks[name])
-        return self.closed(name)
+        return bool(self._engine.resting_inputs & self._input_masks[name])
 
     def set(self, name: str, *, closed: bool) -> None:
         """Close or open a contact; KeyError for a name the unit does not have.
 
-        A contact with a switch along the travel is given the state it has while the switch is not operated.
+        A contact with a switch along the travel, or a mark sensor, is given the state it has while that is not
+        operated.
         """
         if name in self._masks:
             self._engine.set_wires(_with(self._engine.resting_wires, self._masks[name], closed))
         else:
-            self._engine.set_inputs(_with(self._engine.inputs, self._input_masks[name], closed))
+            self._engine.set_inputs(_with(self._engine.resting_inputs, self._input_masks[name], closed))
 
     def set_analog(self, channel: int, *, volts: float) -> None:
         """Set the voltage of a joystick channel (1 to 3).

@@ -1,0 +1,1 @@
+"""Motion of several axes along one path: linear interpolation (GOL) and two-axis contours (PCOMP, PRUN)."""
