@@ -57,7 +57,9 @@ class Rp240(Table, frozen=True):
 class Options(Table, frozen=True):
     """What the order code of the unit includes."""
 
-    following: Annotated[bool, known("Following fitted; without it its commands are not implemented", "assumed", "M")] = True
+    following: Annotated[
+        bool, known("Following fitted; without it its commands are not implemented", "assumed", "M")
+    ] = True
     ani: Annotated[bool, known("analog feedback fitted; without it SFB2 is refused", "assumed", "M")] = False
     expanded_memory: Annotated[bool, known("-M expanded memory fitted", "assumed", "M", acts=False)] = False
 
