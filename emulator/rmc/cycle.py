@@ -22,10 +22,10 @@ WATCHED = 1
 
 
 @kernel
-def move_body(body: Record, plant: Record, volts: float) -> None:
+def move_body(body: Record, plant: Record, volts: float, now_ns: int) -> None:
     """Advance what is driven over the loop just past, the output held, and read its transducer."""
     step_plant(body, plant, volts)
-    read_encoder(body)
+    read_encoder(body, now_ns)
 
 
 @kernel
@@ -111,16 +111,17 @@ def loop(
     """One loop of all axes."""
     axis_count = device["axis_count"]
     loop_s, loops_per_s = device["loop_s"], device["loops_per_s"]
+    now_ns = device["next_loop_ns"]
     for index in range(axis_count):
         axis = axes[index]
         machine = BODIES_PER_AXIS * index
         bodies[machine]["enabled"] = axis["enable_output"]
-        move_body(bodies[machine], plants[machine], 0.0 if axis["simulated"] != 0 else axis["pins_v"])
+        move_body(bodies[machine], plants[machine], 0.0 if axis["simulated"] != 0 else axis["pins_v"], now_ns)
         feedback = machine
         if axis["simulated"] != 0:
             feedback = machine + MODEL
             if axis["model_held"] == 0:
-                move_body(bodies[feedback], plants[feedback], axis["control_v"])
+                move_body(bodies[feedback], plants[feedback], axis["control_v"], now_ns)
         measure(device, axis, bodies[feedback], filters, FILTERS_PER_AXIS * index)
     for index in range(axis_count):
         axis = axes[index]
