@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from emulator.engine.encoder import read_encoder
 from emulator.engine.kernels import Floats, Record, Records
-from emulator.engine.plants import step_plant
+from emulator.engine.plants import place_of_load, step_plant
 
 from .filters import low_pass
-from .halts import check, refresh_status
+from .halts import NEGATIVE_LIMIT_INPUT, POSITIVE_LIMIT_INPUT, check, refresh_status
 from .kernels import kernel, seldom
 from .laws import VELOCITY_PID, closed_loop
 from .layout import BODIES_PER_AXIS, FILTERS_PER_AXIS, MODEL, SECTIONS
@@ -56,6 +56,18 @@ def measure(device: Record, axis: Record, body: Record, filters: Records, first_
     axis["shown_velocity"] = low_pass(filters, first_filter + SECTIONS, velocity)
     axis["shown_acceleration"] = low_pass(filters, first_filter + 2 * SECTIONS, acceleration)
     feed_law(axis, device["loops_per_s"])
+
+
+@kernel
+def read_inputs(axis: Record, machine: Record) -> None:
+    """Fault and limit inputs: as they are wired, and by the switches along the travel."""
+    inputs = axis["wired_inputs"]
+    place = place_of_load(machine)
+    if place >= axis["positive_switch"]:
+        inputs |= POSITIVE_LIMIT_INPUT
+    if place <= axis["negative_switch"]:
+        inputs |= NEGATIVE_LIMIT_INPUT
+    axis["inputs"] = inputs
 
 
 @kernel
@@ -121,6 +133,7 @@ def loop(
             feedback = machine + MODEL
             if axis["model_held"] == 0:
                 move_body(bodies[feedback], plants[feedback], axis["control_v"])
+        read_inputs(axis, bodies[machine])
         measure(device, axis, bodies[feedback], filters, FILTERS_PER_AXIS * index)
     for index in range(axis_count):
         axis = axes[index]

@@ -13,8 +13,9 @@ from typing import Any
 from emulator.engine.layout import places_of
 from emulator.engine.machine_code import OnBuild
 from emulator.engine.plants import Plant, load_fields, plant_fields
+from emulator.engine.travel import Travel
 from emulator.machine import Machine
-from protocol.rmc.bits import AUTOSTOP_BITS, AUTOSTOP_FIELDS, ControlMode
+from protocol.rmc.bits import AUTOSTOP_BITS, AUTOSTOP_FIELDS, ControlMode, ErrorBits
 from protocol.rmc.maps import MAPS, STATUS_FILE, VARIABLE_FILES, Place
 from protocol.rmc.registers import PARAMETER_BY_TAG
 
@@ -125,10 +126,19 @@ class RmcDevice:
                 "encoder_counts": table.start_counts,
             },
         )
+        self._wire(axis, hardware.travel)
         model = BODIES_PER_AXIS * axis.index + MODEL
         self.memory.write_body(model, {"enabled": 1, "encoder_sign": 1, "counts_per_rev": 1.0})
         self.memory.write_body(model, {"encoder_step_limit": 2.0**31, "encoder_easy_step": 2.0**31})
         axis.write(raw_counts=table.start_counts if table.simulate == "off" else 0)
+
+    def _wire(self, axis: Axis, travel: Travel) -> None:
+        """Limit and fault inputs: an open limit contact is active, and a closed fault contact (assumed)."""
+        wires = self.machine.all_axes[axis.index].wires
+        axis.write(positive_switch=travel.positive_limit_rev, negative_switch=travel.negative_limit_rev)
+        self.set_input(axis.index, ErrorBits.POSITIVE_LIMIT_INPUT, active=wires.positive_limit == "open")
+        self.set_input(axis.index, ErrorBits.NEGATIVE_LIMIT_INPUT, active=wires.negative_limit == "open")
+        self.set_input(axis.index, ErrorBits.FAULT_INPUT, active=wires.drive_fault == "closed")
 
     # Time
 
@@ -207,6 +217,12 @@ class RmcDevice:
         body = BODIES_PER_AXIS * axis_index + MACHINE
         self.memory.write_plant(body, plant_fields(plant, float(self.memory.device["loop_s"][0])))
         self.memory.write_body(body, load_fields(plant))
+
+    def set_input(self, axis_index: int, bit: ErrorBits, *, active: bool) -> None:
+        """Operate the fault input or a limit input of an axis."""
+        axis = self.axes[axis_index]
+        wired = axis.integer("wired_inputs")
+        axis.write(wired_inputs=wired | bit if active else wired & ~bit)
 
     def snapshot(self) -> bytes:
         """The whole state; equal bytes mean equal states."""
