@@ -19,13 +19,14 @@ from protocol.rmc.bits import AUTOSTOP_BITS, AUTOSTOP_FIELDS, ControlMode, Error
 from protocol.rmc.maps import MAPS, STATUS_FILE, VARIABLE_FILES, Place
 from protocol.rmc.registers import PARAMETER_BY_TAG
 
-from . import motion_commands, state_commands
+from . import motion_commands, state_commands, sync_moves
 from .axis import Axis
 from .commands import MASTER_FIELDS, execute
 from .layout import BODIES_PER_AXIS, DEVICE, MACHINE, MODEL
 from .machine_code import bind, load_kernel
 from .memory import Memory
 from .parameters import Parameters
+from .sync_moves import match_times
 from .tables import HALT_LEVELS, RmcAxis
 
 NS_PER_US = 1_000
@@ -36,7 +37,7 @@ HIGH_ORDERS = ("none", "acceleration_control", "active_damping")
 
 _DEVICE_WORDS = {name: word for name, (word, _) in places_of(DEVICE).items()}
 
-COMMAND_MODULES = (motion_commands, state_commands)
+COMMAND_MODULES = (motion_commands, state_commands, sync_moves)
 """Imported for the commands they carry out."""
 
 
@@ -180,6 +181,8 @@ class RmcDevice:
         """Carry out the command blocks of one write, by axis index: all take effect at the next loop."""
         for index, numbers in blocks.items():
             execute(self, self.axes[index], numbers)
+        if len(blocks) > 1:
+            match_times([self.axes[index] for index in blocks])
         self._refresh()
 
     def write_parameter(self, axis_index: int, element: int, bits: int) -> None:

@@ -146,7 +146,7 @@ def test_a_closed_connection_says_so(rmc151: EmulatedRmc) -> None:
 def test_through_a_port_of_its_own(rmc151: EmulatedRmc) -> None:
     from clients import RMC
 
-    host, port = rmc151.serve()
+    host, port = rmc151.serve(request_s=0.05)
     with RMC(host, port, axes=3) as rmc:
         rmc.axis[1].enable()
         rmc.axis[1].move_absolute(2.0, speed=5.0, accel=50.0)
@@ -169,7 +169,7 @@ def indented(heading: str) -> str:
 @pytest.mark.rmc151(machine=indented("A cylinder on a valve"))
 def test_the_first_steps_of_the_guide(rmc151: EmulatedRmc, capsys: pytest.CaptureFixture[str]) -> None:
     """As printed, but for the address."""
-    host, port = rmc151.serve()
+    host, port = rmc151.serve(request_s=0.05)
     exec(indented("Any Modbus master will do").replace('"127.0.0.1", 1502', f'"{host}", {port}'), {})
     position, error = map(float, capsys.readouterr().out.split())
     assert position == pytest.approx(10.0, abs=0.05)
