@@ -13,7 +13,7 @@ from emulator.engine.plants import place_of_load, step_plant
 from .filters import low_pass
 from .halts import NEGATIVE_LIMIT_INPUT, POSITIVE_LIMIT_INPUT, check, refresh_status
 from .kernels import kernel, seldom
-from .laws import VELOCITY_PID, closed_loop
+from .laws import VELOCITY_PID, closed_loop, is_finite
 from .layout import BODIES_PER_AXIS, FILTERS_PER_AXIS, MODEL, SECTIONS
 from .output_stage import put_out, put_out_percent
 from .target import COMPLETE, CONSTANT, RAMPS, generate, is_closed
@@ -72,12 +72,12 @@ def read_inputs(axis: Record, machine: Record) -> None:
 
 @kernel
 def read_master(axis: Record, axis_floats: Floats, variables: Floats) -> None:
-    """The master's value this loop."""
+    """The master's value this loop; one that is no number is not followed."""
     axis["previous_master"] = axis["master"]
-    if axis["master_word"] >= 0:
-        axis["master"] = axis_floats[axis["master_word"]]
-    else:
-        axis["master"] = variables[axis["master_variable"]]
+    word = axis["master_word"]
+    value = axis_floats[word] if word >= 0 else variables[axis["master_variable"]]
+    if is_finite(value):
+        axis["master"] = value
 
 
 @kernel
