@@ -55,6 +55,8 @@ LIMITS: Final = (
     "Limits, ENABLE and drive faults follow the wiring of the machine file; contacts do not bounce.",
     "A virtual serial port has no baud rate, no modem lines, no framing errors and no line noise.",
     "What a unit remembers over power-off is taken from a later product's list.",
+    "The Delta RMC151 (docs/rmc.md) rests on a part of its manual: word order, mode names, the accumulation of I-PD "
+    "and the shape of the S-curve are inferred, the order of some status registers is assumed.",
     "Where a transcript under tests/transcripts says `~`, the bytes are not documented, and passing proves nothing "
     "about them.",
 )

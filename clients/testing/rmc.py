@@ -117,22 +117,23 @@ class EmulatedRmc:
         """Let virtual time pass; not while a port is open (`serve` has the device then)."""
         self.device.advance(self.device.now_ns + round(seconds * NS_PER_S))
 
-    def serve(self) -> tuple[str, int]:
-        """Open a Modbus/TCP port; host and port. Each request lets a millisecond of virtual time pass.
+    def serve(self, *, request_s: float = REQUEST_NS / NS_PER_S) -> tuple[str, int]:
+        """Open a Modbus/TCP port; host and port. Each request lets `request_s` of virtual time pass.
 
         From then on the device belongs to the port: look at it through a client of your own.
         """
-        self._served.append(_Served(self.device, self.registers))
+        self._served.append(_Served(self.device, self.registers, round(request_s * NS_PER_S)))
         return ("127.0.0.1", self._served[-1].port)
 
 
 class _Served:
     """A port in a thread of its own, which has the device as long as it is open."""
 
-    def __init__(self, device: RmcDevice, registers: Registers) -> None:
+    def __init__(self, device: RmcDevice, registers: Registers, request_ns: int) -> None:
         from emulator.rmc.modbus import ModbusServer
 
         self._device = device
+        self._request_ns = request_ns
         self._loop = asyncio.new_event_loop()
         self._server: ModbusServer = ModbusServer("127.0.0.1", 0)
         self.port = self._server.port
@@ -142,7 +143,7 @@ class _Served:
 
     async def _step(self, function: Callable[[], Any]) -> Any:
         answer = function()
-        self._device.advance(self._device.now_ns + REQUEST_NS)
+        self._device.advance(self._device.now_ns + self._request_ns)
         return answer
 
     def close(self) -> None:

@@ -47,7 +47,15 @@ class Axis:
         self.last_error = 0
         self.began: tuple[float, ...] = ()
         """Number and parameters of the motion command last begun."""
+        self.sync_group: int | None = None
+        """Group of the sync move last begun, None for any other command."""
+        self._plan: tuple[Ramp, ...] = ()
         self._words = memory.axis[index]
+
+    @property
+    def plan(self) -> tuple[Ramp, ...]:
+        """The plan last begun."""
+        return self._plan
 
     @property
     def record(self) -> Record:
@@ -105,6 +113,7 @@ class Axis:
     def follow(self, plan: Sequence[Ramp], *, end: float | None = None) -> None:
         """Let the target run through a plan from where it is, ending at `end` (default: where the plan leads)."""
         start = self["target_position"]
+        self._plan = tuple(plan)
         if not plan:
             rest(self.record)
             self.write(target_position=start if end is None else end)

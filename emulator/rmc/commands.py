@@ -120,6 +120,7 @@ def _do(device: DeviceLike, axis: Axis, command: CommandType, values: list[float
         return
     # Cleared first: what the command itself has to complain of shall stay.
     axis.clear_faults()
+    axis.sync_group = None
     CARRIED[command.name](device, axis, values)
     axis.began = (command.number, *values)
 

@@ -13,9 +13,8 @@ from protocol.rmc.commands import COMMANDS, CommandType, Field
 from protocol.rmc.maps import MAPS, STATUS_FILE, VARIABLE_FILES, Place, address_of
 from protocol.rmc.registers import PARAMETERS, STATUS_REGISTERS
 
-NEVER_SET = StatusBits.FAULT_INPUT | StatusBits.POSITIVE_LIMIT_INPUT | StatusBits.NEGATIVE_LIMIT_INPUT
-NEVER_RAISED = ErrorBits.FAULT_INPUT | ErrorBits.POSITIVE_LIMIT_INPUT | ErrorBits.NEGATIVE_LIMIT_INPUT | ErrorBits.NOISE
-"""Bits of inputs this device has not."""
+NEVER_RAISED = ErrorBits.NOISE
+"""Error bits whose cause this device has not."""
 
 PARTS = (
     ("Position PID, Velocity PID, Position I-PD, Velocity I-PD with all terms", "yes", ""),
@@ -32,6 +31,7 @@ PARTS = (
     ("Analogue inputs, velocity feedback, force and pressure", "no", ""),
     ("Halts, AutoStops of four levels, halt groups", "yes", ""),
     ("Tasks, user programs, curves, sine, superimposed targets", "no", ""),
+    ("Fault input, limit inputs with switches along the travel", "yes", "an open limit contact is active (assumed)"),
     ("Simulate mode of first and second order, suspension", "yes", "one gain; its force side has no equations"),
     ("Registers: RMC75 and RMC150 maps, duplicates, Indirect Data Map, REQ/ACK for each master", "yes", ""),
     ("Axis assignment, controller, communication, event log, discrete I/O, task registers", "no", "read as 0"),
@@ -133,17 +133,16 @@ def _files() -> str:
 
 
 def _bits() -> str:
-    rows = [("status", str(bit.value.bit_length() - 1), _name(bit), _ever(bit, NEVER_SET)) for bit in StatusBits]
-    rows += [("error", str(bit.value.bit_length() - 1), _name(bit), _ever(bit, NEVER_RAISED)) for bit in ErrorBits]
+    rows = [("status", str(bit.value.bit_length() - 1), _name(bit), "yes") for bit in StatusBits]
+    rows += [
+        ("error", str(bit.value.bit_length() - 1), _name(bit), "no" if bit & NEVER_RAISED else "yes")
+        for bit in ErrorBits
+    ]
     return _table("Bits", ("register", "bit", "meaning", "built"), rows)
 
 
 def _name(bit: StatusBits | ErrorBits) -> str:
     return str(bit.name).replace("_", " ").lower()
-
-
-def _ever(bit: int, never: int) -> str:
-    return "no" if bit & never else "yes"
 
 
 if __name__ == "__main__":

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from emulator.engine.encoder import read_encoder
 from emulator.engine.kernels import Floats, Record, Records
-from emulator.engine.plants import step_plant
+from emulator.engine.plants import place_of_load, step_plant
 
 from .filters import low_pass
-from .halts import check, refresh_status
+from .halts import NEGATIVE_LIMIT_INPUT, POSITIVE_LIMIT_INPUT, check, refresh_status
 from .kernels import kernel, seldom
-from .laws import VELOCITY_PID, closed_loop
+from .laws import VELOCITY_PID, closed_loop, is_finite
 from .layout import BODIES_PER_AXIS, FILTERS_PER_AXIS, MODEL, SECTIONS
 from .output_stage import put_out, put_out_percent
 from .target import COMPLETE, CONSTANT, RAMPS, generate, is_closed
@@ -59,13 +59,25 @@ def measure(device: Record, axis: Record, body: Record, filters: Records, first_
 
 
 @kernel
+def read_inputs(axis: Record, machine: Record) -> None:
+    """Fault and limit inputs: as they are wired, and by the switches along the travel."""
+    inputs = axis["wired_inputs"]
+    place = place_of_load(machine)
+    if place >= axis["positive_switch"]:
+        inputs |= POSITIVE_LIMIT_INPUT
+    if place <= axis["negative_switch"]:
+        inputs |= NEGATIVE_LIMIT_INPUT
+    axis["inputs"] = inputs
+
+
+@kernel
 def read_master(axis: Record, axis_floats: Floats, variables: Floats) -> None:
-    """The master's value this loop."""
+    """The master's value this loop; one that is no number is not followed."""
     axis["previous_master"] = axis["master"]
-    if axis["master_word"] >= 0:
-        axis["master"] = axis_floats[axis["master_word"]]
-    else:
-        axis["master"] = variables[axis["master_variable"]]
+    word = axis["master_word"]
+    value = axis_floats[word] if word >= 0 else variables[axis["master_variable"]]
+    if is_finite(value):
+        axis["master"] = value
 
 
 @kernel
@@ -122,6 +134,7 @@ def loop(
             feedback = machine + MODEL
             if axis["model_held"] == 0:
                 move_body(bodies[feedback], plants[feedback], axis["control_v"], now_ns)
+        read_inputs(axis, bodies[machine])
         measure(device, axis, bodies[feedback], filters, FILTERS_PER_AXIS * index)
     for index in range(axis_count):
         axis = axes[index]

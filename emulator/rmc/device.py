@@ -13,18 +13,20 @@ from typing import Any
 from emulator.engine.layout import places_of
 from emulator.engine.machine_code import OnBuild
 from emulator.engine.plants import Plant, load_fields, plant_fields
+from emulator.engine.travel import Travel
 from emulator.machine import Machine
-from protocol.rmc.bits import AUTOSTOP_BITS, AUTOSTOP_FIELDS, ControlMode
+from protocol.rmc.bits import AUTOSTOP_BITS, AUTOSTOP_FIELDS, ControlMode, ErrorBits
 from protocol.rmc.maps import MAPS, STATUS_FILE, VARIABLE_FILES, Place
 from protocol.rmc.registers import PARAMETER_BY_TAG
 
-from . import motion_commands, state_commands
+from . import motion_commands, state_commands, sync_moves
 from .axis import Axis
 from .commands import MASTER_FIELDS, execute
 from .layout import BODIES_PER_AXIS, DEVICE, MACHINE, MODEL
 from .machine_code import bind, load_kernel
 from .memory import Memory
 from .parameters import Parameters
+from .sync_moves import match_times
 from .tables import HALT_LEVELS, RmcAxis
 
 NS_PER_US = 1_000
@@ -35,7 +37,7 @@ HIGH_ORDERS = ("none", "acceleration_control", "active_damping")
 
 _DEVICE_WORDS = {name: word for name, (word, _) in places_of(DEVICE).items()}
 
-COMMAND_MODULES = (motion_commands, state_commands)
+COMMAND_MODULES = (motion_commands, state_commands, sync_moves)
 """Imported for the commands they carry out."""
 
 
@@ -125,10 +127,19 @@ class RmcDevice:
                 "encoder_counts": table.start_counts,
             },
         )
+        self._wire(axis, hardware.travel)
         model = BODIES_PER_AXIS * axis.index + MODEL
         self.memory.write_body(model, {"enabled": 1, "encoder_sign": 1, "counts_per_rev": 1.0})
         self.memory.write_body(model, {"encoder_step_limit": 2.0**31, "encoder_easy_step": 2.0**31})
         axis.write(raw_counts=table.start_counts if table.simulate == "off" else 0)
+
+    def _wire(self, axis: Axis, travel: Travel) -> None:
+        """Limit and fault inputs: an open limit contact is active, and a closed fault contact (assumed)."""
+        wires = self.machine.all_axes[axis.index].wires
+        axis.write(positive_switch=travel.positive_limit_rev, negative_switch=travel.negative_limit_rev)
+        self.set_input(axis.index, ErrorBits.POSITIVE_LIMIT_INPUT, active=wires.positive_limit == "open")
+        self.set_input(axis.index, ErrorBits.NEGATIVE_LIMIT_INPUT, active=wires.negative_limit == "open")
+        self.set_input(axis.index, ErrorBits.FAULT_INPUT, active=wires.drive_fault == "closed")
 
     # Time
 
@@ -170,6 +181,8 @@ class RmcDevice:
         """Carry out the command blocks of one write, by axis index: all take effect at the next loop."""
         for index, numbers in blocks.items():
             execute(self, self.axes[index], numbers)
+        if len(blocks) > 1:
+            match_times([self.axes[index] for index in blocks])
         self._refresh()
 
     def write_parameter(self, axis_index: int, element: int, bits: int) -> None:
@@ -207,6 +220,12 @@ class RmcDevice:
         body = BODIES_PER_AXIS * axis_index + MACHINE
         self.memory.write_plant(body, plant_fields(plant, float(self.memory.device["loop_s"][0])))
         self.memory.write_body(body, load_fields(plant))
+
+    def set_input(self, axis_index: int, bit: ErrorBits, *, active: bool) -> None:
+        """Operate the fault input or a limit input of an axis."""
+        axis = self.axes[axis_index]
+        wired = axis.integer("wired_inputs")
+        axis.write(wired_inputs=wired | bit if active else wired & ~bit)
 
     def snapshot(self) -> bytes:
         """The whole state; equal bytes mean equal states."""

@@ -13,6 +13,7 @@ from .laws import POSITION_I_PD, POSITION_PID, VELOCITY_I_PD, VELOCITY_PID
 from .target import DIRECT_OUTPUT, OPEN_LOOP, begin_stop, is_closed, open_to
 
 FOLLOWING, OUTPUT_SATURATED, NO_TRANSDUCER, TRANSDUCER_OVERFLOW = 1 << 0, 1 << 2, 1 << 6, 1 << 7
+POSITIVE_LIMIT_INPUT, NEGATIVE_LIMIT_INPUT = 1 << 4, 1 << 5
 POSITIVE_OVERTRAVEL, NEGATIVE_OVERTRAVEL = 1 << 9, 1 << 10
 
 NO_HALT, EXTERNAL_HALT, CLOSED_LOOP_HALT, OPEN_LOOP_HALT, DIRECT_OUTPUT_HALT = range(5)
@@ -125,7 +126,7 @@ def deal_with(axes: Records, axis_count: int, ramps: Records, axis_index: int) -
 def check(axes: Records, axis_count: int, ramps: Records, axis_index: int, encoder_sign: int) -> None:
     """Error bits of this loop, and what follows from them."""
     axis = axes[axis_index]
-    live = following_error(axis) | overtravel(axis) | transducer_errors(axis, encoder_sign)
+    live = following_error(axis) | overtravel(axis) | transducer_errors(axis, encoder_sign) | axis["inputs"]
     if axis["saturated"] != 0:
         live |= OUTPUT_SATURATED
     axis["live_errors"] = live
@@ -151,7 +152,7 @@ def arrived(axis: Record) -> int:
 @seldom
 def refresh_status(axis: Record) -> None:
     """Put the Status Bits together."""
-    status = arrived(axis)
+    status = arrived(axis) | axis["inputs"]
     if axis["mode"] <= OPEN_LOOP:
         status |= IN_OPEN_LOOP
     if abs(axis["shown_velocity"]) < axis["stop_threshold"]:

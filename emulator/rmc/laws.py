@@ -41,6 +41,12 @@ def held_within(value: float, limit: float) -> float:
 
 
 @kernel
+def is_finite(value: float) -> bool:
+    """Neither infinite nor no number: hosts can write both."""
+    return value - value == 0.0
+
+
+@kernel
 def ratio_of_gains(velocity_ff: float, opposite_ff: float) -> float:
     """What the gains are multiplied with in the direction of `velocity_ff`; either being 0 means 1 (M981)."""
     if velocity_ff <= 0.0 or opposite_ff <= 0.0 or velocity_ff >= opposite_ff:

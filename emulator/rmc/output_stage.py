@@ -9,7 +9,7 @@ from __future__ import annotations
 from emulator.engine.kernels import Record
 
 from .kernels import kernel
-from .laws import FULL_PERCENT, VELOCITY_I_PD, VELOCITY_PID, held_within
+from .laws import FULL_PERCENT, VELOCITY_I_PD, VELOCITY_PID, held_within, is_finite
 
 OUTPUT_RANGE_V = 10.0
 
@@ -42,7 +42,12 @@ def with_deadband(axis: Record, volts: float) -> float:
 
 @kernel
 def put_out(axis: Record, volts: float) -> None:
-    """Limit, bias and polarity. Only the limit makes Output Saturated; the range clips bias in silence (M870)."""
+    """Limit, bias and polarity; what is no number puts out nothing.
+
+    Only the limit makes Output Saturated; the range clips bias in silence (M870).
+    """
+    if not is_finite(volts):
+        volts = 0.0
     limit = axis["output_limit"]
     axis["saturated"] = 1 if volts > limit else (-1 if volts < -limit else 0)
     axis["control_v"] = held_within(held_within(volts, limit) + axis["output_bias"], OUTPUT_RANGE_V)

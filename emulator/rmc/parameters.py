@@ -75,7 +75,6 @@ class Parameters:
             self._bits[parameter.element] = bits_of(parameter.default, parameter.kind)
         if simulate == "first_order":
             self._bits[118] = bits_of(DEFAULT_TIME_CONSTANT_S)
-        self.model: Plant | None = None
 
     def bits(self, element: int) -> int:
         """A register as it is read."""
@@ -215,7 +214,6 @@ class Parameters:
             return
         plant = self._model_of(self._model_values())
         assert plant is not None, "every value was checked when it was written"
-        self.model = plant
         memory, index = self._axis.memory, BODIES_PER_AXIS * self._axis.index + MODEL
         memory.write_plant(index, plant_fields(plant, float(memory.device["loop_s"][0])))
         memory.write_body(index, load_fields(plant))

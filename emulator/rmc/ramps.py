@@ -102,6 +102,13 @@ def turned(ramp: Ramp, sign: float) -> Ramp:
     return Ramp(ramp.duration_s, sign * ramp.velocity, sign * ramp.change, ramp.shape)
 
 
+def stretched(plan: Plan, factor: float) -> Plan:
+    """The same way from rest to rest in `factor` times the time."""
+    return tuple(
+        Ramp(ramp.duration_s * factor, ramp.velocity / factor, ramp.change / factor, ramp.shape) for ramp in plan
+    )
+
+
 def plan_timed(
     distance: float, velocity: float, acceleration: float, *, time_s: float, to_velocity: float, to_acceleration: float
 ) -> Plan:

@@ -24,7 +24,7 @@ from protocol.rmc.maps import (
     place_at,
 )
 from protocol.rmc.registers import STATUS_BY_TAG, STATUS_REGISTERS
-from protocol.rmc.words import bits_of, halves, joined, to_words, value_of
+from protocol.rmc.words import bits_of, halves, joined, value_of
 
 from .axis import Axis
 from .device import RmcDevice
@@ -232,10 +232,6 @@ class Registers:
             self._put_one(self._map.original(target), bits, blocks)
         else:
             self._device.write_parameter(place.file - self._map.parameter_file, place.element, bits)
-
-    def words(self, values: Sequence[int]) -> list[int]:
-        """Words of several registers in the order of this device."""
-        return to_words(values, self._order)
 
 
 def following(place: Place) -> Place:

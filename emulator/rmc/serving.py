@@ -12,9 +12,9 @@ import json
 import os
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from emulator.clock import Clock
 from emulator.logs import set_up_logging
@@ -23,6 +23,8 @@ from emulator.pacing import EngineThread
 from emulator.ports import PortError
 
 FALLBACK_HOST = "127.0.0.1"
+
+T = TypeVar("T")
 
 
 def serve_rmc(options: ServeOptions) -> int:
@@ -44,7 +46,7 @@ def serve_rmc(options: ServeOptions) -> int:
 
 
 def _mistake(text: str) -> int:
-    print(f"oem6250: {text}", file=sys.stderr)
+    _say(text)
     return 2
 
 
@@ -54,7 +56,7 @@ async def _serve(options: ServeOptions, machine: Any, server: Any) -> int:
     from emulator.rmc.unit import RmcUnit
 
     stop = _stop_at_signals()
-    device = RmcDevice(machine, on_build=lambda text: print(f"oem6250: {text}", file=sys.stderr, flush=True))
+    device = await _unless_stopped(stop, asyncio.to_thread(RmcDevice, machine, on_build=_say))
     loop, crashes = asyncio.get_running_loop(), [0]
 
     def crashed() -> None:
@@ -69,6 +71,21 @@ async def _serve(options: ServeOptions, machine: Any, server: Any) -> int:
     await server.close()
     engine.stop()
     return crashes[0]
+
+
+def _say(text: str) -> None:
+    print(f"oem6250: {text}", file=sys.stderr, flush=True)
+
+
+async def _unless_stopped(stop: asyncio.Event, work: Coroutine[Any, Any, T]) -> T:
+    """What some work brings, done in a thread; a signal meanwhile ends the process, building kernel or not."""
+    done, stopped = asyncio.ensure_future(work), asyncio.ensure_future(stop.wait())
+    await asyncio.wait((done, stopped), return_when=asyncio.FIRST_COMPLETED)
+    if not done.done():
+        sys.stderr.flush()
+        os._exit(0)
+    stopped.cancel()
+    return done.result()
 
 
 def runs_on(engine: EngineThread) -> Callable[[Callable[[], Any]], Any]:

@@ -11,7 +11,7 @@ import math
 from emulator.engine.kernels import Record, Records
 
 from .kernels import kernel, seldom
-from .laws import FULL_PERCENT, POSITION_I_PD, POSITION_PID, clear_terms, held_within, take_over
+from .laws import FULL_PERCENT, POSITION_I_PD, POSITION_PID, clear_terms, held_within, is_finite, take_over
 from .ramps import LINEAR, S_CURVE, on_ramp
 
 REST, RAMPS, GEAR_BY_TIME, GEAR_BY_RATE, GEAR_BY_DISTANCE, GEAR_MAP, TRACK, TRACK_STEPS = range(8)
@@ -356,7 +356,7 @@ def generate(axis: Record, ramps: Records, loop_s: float, loops_per_s: float) ->
         quick_move(axis, ramps, loop_s)
     elif generator != REST:
         follow_master(axis, loop_s, loops_per_s)
-    if not is_closed(axis):
+    if not is_closed(axis) or not is_finite(axis["target_position"] + axis["target_velocity"]):
         axis["target_position"] = axis["actual_position"]
         axis["target_velocity"] = 0.0
         axis["target_acceleration"] = 0.0

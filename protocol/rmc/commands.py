@@ -54,6 +54,7 @@ _DECEL = Field("decel", positive=True)
 _POSITION = Field("position")
 _DISTANCE = Field("distance")
 _RELATIVE_TO = Field("relative_to", choices=(0, 1, 2))
+_GROUP = Field("group", choices=tuple(range(11)))
 _MASTER = Field("master", low=0, high=LAST_REGISTER)
 _OUTPUT = Field("output_v", low=-10.0, high=10.0)
 _RAMP = Field("ramp_v_s", positive=True)
@@ -80,8 +81,22 @@ COMMANDS: Final = (
     CommandType(10, "open_loop_rate", "Open Loop Rate", (_OUTPUT, _RAMP), "M722", motion=True),
     _left_out(11, "open_loop_absolute", "Open Loop Absolute", "M111"),
     _left_out(12, "open_loop_relative", "Open Loop Relative", "M128"),
-    _left_out(13, "sync_move_absolute", "Sync Move Absolute", "M729"),
-    _left_out(14, "sync_move_relative", "Sync Move Relative", "M729"),
+    CommandType(
+        13,
+        "sync_move_absolute",
+        "Sync Move Absolute",
+        (_POSITION, _SPEED, _ACCEL, _DECEL, _GROUP),
+        "M729, order inferred",
+        motion=True,
+    ),
+    CommandType(
+        14,
+        "sync_move_relative",
+        "Sync Move Relative",
+        (_DISTANCE, _SPEED, _ACCEL, _DECEL, _RELATIVE_TO, _GROUP),
+        "M729",
+        motion=True,
+    ),
     CommandType(
         15,
         "quick_move_absolute",
@@ -98,7 +113,7 @@ COMMANDS: Final = (
         "M737",
         motion=True,
     ),
-    _left_out(17, "sync_stop", "Sync Stop", "M729"),
+    CommandType(17, "sync_stop", "Sync Stop", (_DECEL, _GROUP), "M729, order inferred", motion=True),
     CommandType(
         20,
         "move_absolute",

@@ -1,7 +1,7 @@
 """Gains of the older RMC100 as those of an RMC75 or RMC150 (F rmc100-to-rmc75-or-rmc150-gain-conversion).
 
-`N` and `L` of that thread are the counts of the RMC100's transducer and the position-units they make; their ratio is
-all that enters but for the plain factors.
+`N` and `L` of that thread are taken to be counts of the RMC100's transducer and the position-units they make
+(inferred); their ratio is all that enters but for the plain factors.
 """
 
 from __future__ import annotations

@@ -6,6 +6,7 @@ import json
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +15,8 @@ import pytest
 
 from clients import RMC
 from emulator.cli import main
+from protocol.rmc.maps import Place
+from protocol.rmc.words import reals
 from tests.ports.served import PATIENCE_S, REPOSITORY, START_PATIENCE_S, wait_until
 
 MACHINE = """
@@ -60,6 +63,34 @@ def test_a_host_moves_an_axis_and_a_signal_ends_it(served: tuple[subprocess.Pope
         process.send_signal(signal.SIGTERM)
         assert process.communicate(timeout=PATIENCE_S)[1] == ""
         assert process.returncode == 0
+
+
+def test_no_reader_ever_sees_half_a_write(served: tuple[subprocess.Popen[str], int]) -> None:
+    """Two masters write fifty variables at a time, all alike; two others read them."""
+    _, port = served
+    until = time.monotonic() + 1.0
+    torn, reads = [], []
+
+    def write(value: float) -> None:
+        with RMC("127.0.0.1", port, axes=1) as rmc:
+            while time.monotonic() < until:
+                rmc.write_bits(Place(56, 0), reals(*[value] * 50))
+
+    def read() -> None:
+        with RMC("127.0.0.1", port, axes=1) as rmc:
+            while time.monotonic() < until:
+                seen = set(rmc.read_bits(Place(56, 0), 50))
+                reads.append(seen)
+                torn.extend([seen] if len(seen) > 1 else [])
+
+    threads = [threading.Thread(target=write, args=(value,)) for value in (1.0, -2.5)]
+    threads += [threading.Thread(target=read) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert torn == []
+    assert set().union(*reads) >= set(reals(1.0, -2.5)), "both were seen"
 
 
 @pytest.mark.parametrize(

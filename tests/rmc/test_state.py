@@ -236,6 +236,43 @@ def test_travel_limits_hold_the_target_and_say_so() -> None:
     assert rig.axes[0]["actual_position"] == pytest.approx(4.0, abs=0.01), "back again is allowed"
 
 
+@pytest.mark.parametrize(
+    ("bit", "said"),
+    [
+        (ErrorBits.FAULT_INPUT, StatusBits.FAULT_INPUT),
+        (ErrorBits.POSITIVE_LIMIT_INPUT, StatusBits.POSITIVE_LIMIT_INPUT),
+        (ErrorBits.NEGATIVE_LIMIT_INPUT, StatusBits.NEGATIVE_LIMIT_INPUT),
+    ],
+)
+def test_inputs_show_live_and_as_errors(bit: ErrorBits, said: StatusBits) -> None:
+    rig = moving()
+    rig.set_input(0, bit, active=True)
+    run(rig, 0.01)
+    assert said in status(rig)
+    assert StatusBits.HALTED in status(rig)
+    rig.set_input(0, bit, active=False)
+    run(rig, 0.01)
+    assert said not in status(rig)
+    assert bit in errors(rig), "latched"
+    command(rig, 4.0)
+    assert errors(rig) == ErrorBits(0)
+
+
+def test_a_limit_switch_along_the_travel_stops_the_axis() -> None:
+    rig = device(CYLINDER + "[axis1.travel]\npositive_limit_rev = 1.0", VelocityFF=3.33, VelocityFFNegative=4.35)
+    set_parameters(rig, ProportionalGain=40.0)
+    command(rig, 37.0, 1.0, 10.0, 10.0, 4.0)
+    run(rig, 2.0)
+    assert errors(rig) == ErrorBits.POSITIVE_LIMIT_INPUT
+    assert 1.0 <= rig.true_position(0) < 1.1
+
+
+def test_wires_of_the_machine_file() -> None:
+    rig = device('bare = true\n[axis1.wires]\nnegative_limit = "closed"')
+    run(rig, 0.01)
+    assert errors(rig) == ErrorBits.POSITIVE_LIMIT_INPUT
+
+
 def test_saturation_is_an_error_bit() -> None:
     rig = moving(AutoStop.EXTERNAL_HALT)
     set_parameters(rig, PositionErrorTolerance=100.0)

@@ -321,3 +321,53 @@ def test_origin_shifts_with_everything_on_it(pair: RmcDevice) -> None:
     command(pair, 49.0, 0.0)
     run(pair, 0.01)
     assert pair.axes[0]["actual_position"] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_sync_moves_of_one_write_arrive_together(pair: RmcDevice) -> None:
+    """Three units and one, at the same speed: the shorter way is stretched, within its limits."""
+    pair.execute({0: [13.0, 3.0, 2.0, 20.0, 20.0, 1.0], 1: [14.0, 1.0, 2.0, 20.0, 20.0, 0.0, 1.0]})
+    speeds = trace(pair, 1.599, "target_velocity", axis=1)["target_velocity"]
+    assert speeds.max() == pytest.approx(2.0 * 0.6 / 1.6)
+    assert [axis.integer("target_done") for axis in pair.axes] == [0, 0]
+    run(pair, 0.001)
+    assert [axis.integer("target_done") for axis in pair.axes] == [1, 1]
+    assert [axis["target_position"] for axis in pair.axes] == [3.0, 1.0]
+
+
+def test_sync_moves_of_different_groups_do_not_wait(pair: RmcDevice) -> None:
+    pair.execute({0: [13.0, 3.0, 2.0, 20.0, 20.0, 1.0], 1: [13.0, 1.0, 2.0, 20.0, 20.0, 2.0]})
+    run(pair, 0.61)
+    assert [axis.integer("target_done") for axis in pair.axes] == [0, 1]
+
+
+def test_sync_stop_stops_its_group(pair: RmcDevice) -> None:
+    pair.execute({0: [13.0, 3.0, 2.0, 20.0, 20.0, 1.0], 1: [13.0, 3.0, 2.0, 20.0, 20.0, 1.0]})
+    run(pair, 0.5)
+    command(pair, 17.0, 20.0, 1.0)
+    run(pair, 0.2)
+    assert [axis["target_velocity"] for axis in pair.axes] == [0.0, 0.0]
+    assert all(0.9 < axis["target_position"] < 1.2 for axis in pair.axes)
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
+def test_a_master_that_is_no_number_is_not_followed(pair: RmcDevice, value: float) -> None:
+    set_parameters(pair, VelocityFF=0.0)
+    command(pair, 30.0, 1.0, 1.0, VARIABLE_0, 0.0)
+    run(pair, 0.01)
+    pair.memory.variables[0] = 0.01
+    run(pair, 0.1)
+    pair.memory.variables[0] = value
+    run(pair, 1.0)
+    assert pair.axes[0]["target_position"] == pytest.approx(0.01)
+    assert pair.axes[0]["actual_position"] == pytest.approx(0.01, abs=1e-3)
+
+
+def test_a_plan_beyond_all_numbers_moves_nothing(pair: RmcDevice) -> None:
+    """Factors of the host's that come to more than a number can be."""
+    set_parameters(pair, JerkFF=3e38, AccelerationFF=3e38, DifferentialGain=3e38)
+    command(pair, 27.0, 3e38, 3e38, 3e38, 1e-45, 0.0)
+    run(pair, 0.1)
+    assert abs(pair.axes[0]["control_v"]) <= 10.0
+    command(pair, 3.0)
+    run(pair, 0.2)
+    assert pair.axes[0]["control_v"] == 0.0
