@@ -146,6 +146,21 @@ def _trigger_fields() -> Fields:
     )
 
 
+DRIVEN_ENCODER_FIELDS: Fields = (
+    ("encoder_driven", INT, "1 = its motion is what follows, 0 = the axis turns it"),
+    ("driven_counts", FLOAT, "where it stands, without its phase, counts"),
+    ("motion_start_ns", INT, "when its motion begins, ns"),
+    ("motion_origin", FLOAT, "where it stood then, counts"),
+    ("motion_start_velocity", FLOAT, "its velocity then, counts/s"),
+    ("motion_velocity", FLOAT, "its velocity after the ramp, counts/s"),
+    ("motion_ramp_s", FLOAT, "duration of the ramp, s"),
+    ("motion_swing", FLOAT, "amplitude of a sine on top, counts"),
+    ("motion_hz", FLOAT, "its frequency, Hz"),
+    ("motion_end_s", FLOAT, "duration of the motion, s; it then rests"),
+    ("motion_end_counts", FLOAT, "travel of the whole motion, counts"),
+)
+"""An encoder turned by something else than its motor."""
+
 AXIS_FIELDS: Fields = (
     # drive and loop
     ("enabled", INT, "1 = drive on"),
@@ -266,18 +281,7 @@ AXIS_FIELDS: Fields = (
     ("load_velocity", FLOAT, "velocity of the load's inertia on a springy shaft, rev/s"),
     ("spool", FLOAT, "position of a cylinder's valve spool, V"),
     ("spool_rate", FLOAT, "its velocity over the valve's natural frequency, V"),
-    # an encoder turned by something else than its motor
-    ("encoder_driven", INT, "1 = its motion is what follows, 0 = the axis turns it"),
-    ("driven_counts", FLOAT, "where it stands, without its phase, counts"),
-    ("motion_start_ns", INT, "when its motion begins, ns"),
-    ("motion_origin", FLOAT, "where it stood then, counts"),
-    ("motion_start_velocity", FLOAT, "its velocity then, counts/s"),
-    ("motion_velocity", FLOAT, "its velocity after the ramp, counts/s"),
-    ("motion_ramp_s", FLOAT, "duration of the ramp, s"),
-    ("motion_swing", FLOAT, "amplitude of a sine on top, counts"),
-    ("motion_hz", FLOAT, "its frequency, Hz"),
-    ("motion_end_s", FLOAT, "duration of the motion, s; it then rests"),
-    ("motion_end_counts", FLOAT, "travel of the whole motion, counts"),
+    *DRIVEN_ENCODER_FIELDS,
     *_FOLLOWING_FIELDS,
     *_trigger_fields(),
 )

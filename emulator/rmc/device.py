@@ -121,7 +121,10 @@ class RmcDevice:
             {
                 **traits.fields(axis.index),
                 **load_fields(hardware.plant),
-                **traits.step_fields(period_s, load_apart=hardware.plant.load_apart),
+                **traits.step_fields(
+                    period_s, load_apart=hardware.plant.load_apart, driven=hardware.motion is not None
+                ),
+                **({} if hardware.motion is None else hardware.motion.fields(origin_counts=0.0, now_ns=0)),
                 "counts_per_rev": hardware.counts_per_rev,
                 "encoder_phase": hardware.encoder_phase,
                 "encoder_counts": table.start_counts,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from emulator.engine.layout import FLOAT, INT, PLANT, Fields
+from emulator.engine.layout import DRIVEN_ENCODER_FIELDS, FLOAT, INT, PLANT, Fields
 
 DEVICE_FIELDS: Fields = (
     ("axis_count", INT, "axes"),
@@ -189,6 +189,7 @@ BODY_FIELDS: Fields = (
     ("load_velocity", FLOAT, "of the load's inertia, rev/s"),
     ("spool", FLOAT, "position of a valve's spool, V"),
     ("spool_rate", FLOAT, "its velocity over the valve's natural frequency, V"),
+    *DRIVEN_ENCODER_FIELDS,
 )
 
 RAMP_FIELDS: Fields = (

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
-from pathlib import Path
-
 import pytest
 
 from clients import RmcFault, RmcLost, RmcRefused, RmcTimeout
@@ -152,28 +149,6 @@ def test_through_a_port_of_its_own(rmc151: EmulatedRmc) -> None:
         rmc.axis[1].move_absolute(2.0, speed=5.0, accel=50.0)
         rmc.axis[1].wait_done()
         assert rmc.axis[1].read("TarPos") == 2.0
-
-
-GUIDE = (Path(__file__).parents[2] / "docs" / "rmc.md").read_text(encoding="utf-8")
-
-
-def indented(heading: str) -> str:
-    """The first block of code below a line of the guide."""
-    lines = GUIDE[GUIDE.index(heading) :].splitlines()[1:]
-    first = next(number for number, line in enumerate(lines) if line.startswith("    "))
-    rest = lines[first:]
-    end = next(number for number, line in enumerate(rest) if line and not line.startswith("    "))
-    return textwrap.dedent("\n".join(rest[:end]))
-
-
-@pytest.mark.rmc151(machine=indented("A cylinder on a valve"))
-def test_the_first_steps_of_the_guide(rmc151: EmulatedRmc, capsys: pytest.CaptureFixture[str]) -> None:
-    """As printed, but for the address."""
-    host, port = rmc151.serve(request_s=0.05)
-    exec(indented("Any Modbus master will do").replace('"127.0.0.1", 1502', f'"{host}", {port}'), {})
-    position, error = map(float, capsys.readouterr().out.split())
-    assert position == pytest.approx(10.0, abs=0.05)
-    assert error == pytest.approx(10.0 - position, abs=0.02)
 
 
 def test_no_controller_there() -> None:

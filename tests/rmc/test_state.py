@@ -273,6 +273,20 @@ def test_wires_of_the_machine_file() -> None:
     assert errors(rig) == ErrorBits.POSITIVE_LIMIT_INPUT
 
 
+def test_an_encoder_turned_by_something_else() -> None:
+    """A conveyor's: half an axis, which another can follow (design choice, as on the OEM6250)."""
+    rig = device(
+        """
+        [axis1.encoder_motion]
+        kind = "constant"
+        velocity_counts_s = 2500.0
+        """
+    )
+    run(rig, 2.0)
+    assert rig.axes[0]["actual_position"] == pytest.approx(5000.0, abs=3.0)  # of one loop
+    assert rig.axes[0]["actual_velocity"] == pytest.approx(2500.0, abs=1000.0)  # of whole counts a loop
+
+
 def test_saturation_is_an_error_bit() -> None:
     rig = moving(AutoStop.EXTERNAL_HALT)
     set_parameters(rig, PositionErrorTolerance=100.0)
