@@ -19,6 +19,9 @@ from emulator.recording.machine_text import toml_key, toml_value
 from emulator.reload import takes_effect
 
 TOP: Final = "the top of the file"
+_ALIKE: Final = frozenset(f"axis{number}" for number in range(2, 9))
+"""Tables with the keys of `axis1`."""
+_OTHER_AXES: Final = " `[axis2...]`, and of an RMC `[axis3...]` to `[axis8...]`, have the same keys."
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +62,7 @@ default is what the unit does; a design choice is no claim about the unit, but w
 
 
 def tables() -> list[TableOfKeys]:
-    """Every table of the file, axis 2 left out (it is as axis 1); of a table that has kinds, one for each kind."""
+    """Every table of the file, of the axes only the first (the others are as it is); one for each kind of a table."""
     return list(_tables(Machine.default(), "", "what is true of the whole unit"))
 
 
@@ -86,7 +89,7 @@ def _tables(value: msgspec.Struct, path: str, what: str) -> Iterator[TableOfKeys
         inner, inner_path = getattr(value, field.name), prefix + field.encode_name
         if kinds := _kinds(field.type):
             yield from (_of_kind(each, inner_path, _about(field.type)[0]) for each in kinds)
-        elif isinstance(inner, msgspec.Struct) and field.name != "axis2":
+        elif isinstance(inner, msgspec.Struct) and field.name not in _ALIKE:
             yield from _tables(inner, inner_path, _about(field.type)[0])
 
 
@@ -215,7 +218,11 @@ def _section(each: TableOfKeys) -> str:
     title = code(f"[{each.path}]") if each.path else TOP.capitalize()
     title += f", kind {code(each.kind)}" if each.kind else ""
     label = anchor(f"machine-{each.path.replace('.', '-') or 'top'}{'-' + each.kind if each.kind else ''}")
-    axis = " `[axis2...]` has the same keys." if each.path.startswith("axis1") else ""
+    axis = (
+        " `[axis2...]`, and of an RMC `[axis3...]` to `[axis8...]`, have the same keys."
+        if each.path.startswith("axis1")
+        else ""
+    )
     return "\n\n".join(
         [
             f"{label}## {title}",

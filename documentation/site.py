@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
 import sys
@@ -16,8 +15,6 @@ from documentation import commands, machine_file, python_api, replies, surface
 REPOSITORY: Final = Path(__file__).resolve().parents[1]
 PAGES: Final = REPOSITORY / "docs"
 CONFIGURATION: Final = Path(__file__).parent / "sphinx"
-CONTENTS: Final = "index.md"
-_PATTERN: Final = re.compile(r"[a-z]+\*")
 REFERENCE: Final = "reference"
 """The folder of the generated pages, beside the written ones."""
 
@@ -44,8 +41,7 @@ def assemble(target: Path, pages: Path = PAGES) -> None:
     A page that has not changed keeps its time, so that Sphinx reads only what has.
     """
     generated = {Path(REFERENCE, name): text for name, text in generated_pages().items()}
-    generated[Path(CONTENTS)] = without_absent_pages((pages / CONTENTS).read_text(encoding="utf-8"), pages)
-    written = {path.relative_to(pages) for path in pages.rglob("*") if path.is_file()} - {Path(CONTENTS)}
+    written = {path.relative_to(pages) for path in pages.rglob("*") if path.is_file()}
     if clash := written & generated.keys():
         raise ValueError(f"{min(clash)} is a generated page; {pages} must not have one of that name")
     _remove_others(target, written | generated.keys())
@@ -53,13 +49,6 @@ def assemble(target: Path, pages: Path = PAGES) -> None:
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(pages / name, target / name)
     _write_changed(target, generated)
-
-
-def without_absent_pages(contents: str, pages: Path) -> str:
-    """The contents without the patterns (`following*`) that no page matches, which Sphinx would not let pass."""
-    lines = contents.splitlines(keepends=True)
-    kept = [line for line in lines if not _PATTERN.fullmatch(line.strip()) or any(pages.glob(f"{line.strip()}.md"))]
-    return "".join(kept)
 
 
 def _remove_others(target: Path, wanted: set[Path]) -> None:

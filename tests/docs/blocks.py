@@ -7,12 +7,14 @@ A page is written for people; what a test must know stands in an HTML comment be
 Instructions, separated by semicolons:
 
     server [M.toml] [N]  Python: an emulator on real ports, of this machine file, of so many units in a chain
+    rmc M.toml        Python, sh: an emulated RMC151 of this machine file on port 1502, in virtual time
     unit              Python: `emu`, an `Emulator`, and its first `unit`
     pytest            Python: a test module, with the fixtures of our plugin
     continues         Python: after the block of Python before it on the page, in the same names; doctests
                       always go on from the doctests before them
     with NAME NAME    run in a folder in which these files are; see material.py
     file NAME         this block is the text of a file that later blocks of the page use; run as its language says
+    needs PROGRAM     sh: skipped where this program of other people is not installed
     status N          console: the last command ends with this exit status
     say A => B        run with B in place of A: a smaller job, a place that exists here
     machine TEXT      oem6250: lines of a machine file, separated by |
@@ -32,7 +34,9 @@ from markdown_it.token import Token
 
 REPOSITORY: Final = Path(__file__).resolve().parents[2]
 _COMMENT: Final = re.compile(r"<!--\s*test:\s*(.*?)\s*-->", re.DOTALL)
-_WORDS: Final = ("server", "unit", "pytest", "continues", "with", "file", "status", "say", "machine", "none:")
+_WORDS: Final = (
+    "server", "rmc", "unit", "pytest", "continues", "with", "file", "needs", "status", "say", "machine", "none:"
+)  # fmt: skip
 _NEXT: Final = re.compile(rf";\s*(?={'|'.join(_WORDS)})")
 """What parts two instructions; a reason may have semicolons of its own."""
 

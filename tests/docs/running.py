@@ -12,20 +12,24 @@ import subprocess
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, chdir
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
 import pytest
 
-from clients.testing import Served, served
+from clients.testing import EmulatedRmc, Served, served
 from emulator import Emulator, Machine
-from tests.docs import screen
+from tests.docs import screen, terminal
 from tests.docs.blocks import Block
 from tests.docs.material import lay_out
 from tests.docs.shell import Shell
 
 FLAGS: Final = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 PORT: Final = re.compile(r"\b6250\b")
+RMC_PORT: Final = re.compile(r"\b1502\b")
+POLL_S: Final = 0.05
+"""What each request of a master lets pass: these pause between their polls."""
 SERIAL_PORT: Final = "/tmp/oem6250"
 """The virtual serial port of the examples (`--pty /tmp/oem6250`)."""
 
@@ -59,9 +63,10 @@ def _python(block: Block, before: Sequence[Block], folder: Path, request: pytest
     with ExitStack() as stack:
         stack.enter_context(chdir(folder))
         names = _names(block, stack)
+        place = _place_of_rmc(block, stack)
         texts = [_with_says(each).text for each in _continued(block, before)]
         for text in (*texts, block.text):
-            _execute(_placed(text, names), names, block)
+            _execute(place(_placed(text, names)), names, block)
 
 
 def _pytest(text: str, folder: Path, request: pytest.FixtureRequest) -> None:
@@ -114,6 +119,14 @@ def _served(words: Sequence[str]) -> AbstractContextManager[Served]:
     return served(None if machine is None else Machine.load(machine), chain=chain)
 
 
+def _place_of_rmc(block: Block, stack: ExitStack) -> Callable[[str], str]:
+    """What puts the port of the RMC that a block asks for in place of the one it names."""
+    if not block.has("rmc"):
+        return str
+    _, port = stack.enter_context(EmulatedRmc(Path(block.values("rmc")[0]))).serve(request_s=POLL_S)
+    return partial(RMC_PORT.sub, str(port))
+
+
 def _placed(text: str, names: Mapping[str, Any]) -> str:
     """The text with the ports of the running server in place of those it names."""
     if "server" not in names:
@@ -145,8 +158,20 @@ def _doctest(text: str, names: dict[str, Any], block: Block) -> None:
 
 
 def _shell(block: Block, before: Sequence[Block], folder: Path, request: pytest.FixtureRequest) -> None:
-    with Shell(folder) as shell:
-        shell.run_script(block.text)
+    for program in block.values("needs"):
+        if shutil.which(program) is None:
+            pytest.skip(f"{program} is not installed")
+    with ExitStack() as stack:
+        stack.enter_context(chdir(folder))
+        place = _place_of_rmc(block, stack)
+        stack.enter_context(Shell(folder)).run_script(place(block.text))
+
+
+def _terminal(block: Block, before: Sequence[Block], folder: Path, request: pytest.FixtureRequest) -> None:
+    with served() as server:
+        text = _placed(block.text, {"server": server})
+        shown = terminal.play(text, server.tcp_url, folder / "history")
+    assert doctest.OutputChecker().check_output(text, f"{shown}\n", FLAGS), shown
 
 
 def _console(block: Block, before: Sequence[Block], folder: Path, request: pytest.FixtureRequest) -> None:
@@ -208,6 +233,7 @@ RUNNERS: Final[Mapping[str, Callable[[Block, Sequence[Block], Path, pytest.Pytes
     "console": _console,
     "toml": _toml,
     "oem6250": _session,
+    "terminal": _terminal,
     "c": _c,
     "state": _state,
     "recording": _recording,

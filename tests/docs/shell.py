@@ -31,9 +31,10 @@ if sys.argv[1:2] != ["serve"]:
 folder = pathlib.Path({folder!r})
 ready = folder / f"ready-{{os.getpid()}}"
 options = ["--announce", str(ready)]
-if not any(option.startswith(("--tcp", "--no-tcp")) for option in sys.argv):
+other_device = "--device" in sys.argv
+if not other_device and not any(option.startswith(("--tcp", "--no-tcp")) for option in sys.argv):
     options += ["--tcp", "127.0.0.1:{port}"]
-if "--pty" not in sys.argv:
+if not other_device and "--pty" not in sys.argv:
     options += ["--pty", "none"]
 with open(folder / "log", "ab") as log:
     server = subprocess.Popen([*command, *options], stdin=subprocess.DEVNULL, stdout=log, stderr=log)
@@ -97,8 +98,8 @@ class Shell:
         return status, output.read_text()
 
     def _placed(self, text: str) -> str:
-        """The text with a free port for the usual one, and this folder for /tmp."""
-        return re.sub(r"\b6250\b", str(self._port), text).replace("/tmp/", f"{self._folder}/")
+        """The text with a free port for the usual ones, and this folder for /tmp."""
+        return re.sub(r"\b(6250|1502)\b", str(self._port), text).replace("/tmp/", f"{self._folder}/")
 
     def _log(self) -> str:
         log = self._own / "log"

@@ -11,6 +11,7 @@ import pytest
 import clients
 from clients import testing
 from documentation import commands, machine_file, python_api, replies, surface
+from documentation.markdown import code
 from documentation.refusals import refusals
 from emulator.fidelity import entries
 from emulator.machine import Machine
@@ -128,7 +129,7 @@ class TestReplies:
 
     def test_every_error_and_every_foreign_name(self) -> None:
         text = replies.errors_page()
-        assert all(f"`{row.text}`" in text for row in catalogue.error_rows())
+        assert all(code(row.text) in text for row in catalogue.error_rows())
         assert all(f"`{name}`" in text for name in catalogue.other_product_names())
 
     def test_every_letter(self) -> None:

@@ -48,16 +48,9 @@ def test_a_docstring_keeps_its_code_and_its_sections() -> None:
 def pages(tmp_path: Path) -> Path:
     folder = tmp_path / "docs"
     folder.mkdir()
-    (folder / "index.md").write_text("# S\n\n```{toctree}\n:glob:\n\none\nfollowing*\n```\n")
+    (folder / "index.md").write_text("# S\n\n```{toctree}\n\none\n```\n")
     (folder / "one.md").write_text("# One\n")
     return folder
-
-
-def test_a_page_that_may_be_absent_is_taken_up_when_it_is_there(pages: Path) -> None:
-    contents = (pages / "index.md").read_text()
-    assert "following" not in site.without_absent_pages(contents, pages)
-    (pages / "following.md").write_text("# F\n")
-    assert site.without_absent_pages(contents, pages) == contents
 
 
 def test_a_second_run_changes_nothing_but_what_has_changed(pages: Path, tmp_path: Path) -> None:
