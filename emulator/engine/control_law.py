@@ -103,12 +103,12 @@ def integrate(axis: Record, error: float, servo_s: float) -> None:
 
 
 @kernel
-def closed_loop(unit: Record, axis: Record) -> float:
+def closed_loop(unit: Record, axis: Record, feedback_counts: int) -> float:
     """Sum of the terms and the offset for this sample, V, not yet limited."""
     if gains_are_zero(axis):
         return open_loop(axis)
-    error = float(axis["commanded_counts"] - axis["feedback_counts"])
-    velocity = (axis["feedback_counts"] - axis["previous_feedback_counts"]) * unit["servo_hz"]
+    error = float(axis["commanded_counts"] - feedback_counts)
+    velocity = (feedback_counts - axis["previous_feedback_counts"]) * unit["servo_hz"]
     axis["term_p"] = axis["proportional_v"] * error
     integrate(axis, error, unit["servo_s"])
     axis["term_v"] = -(axis["velocity_v"] * velocity)
@@ -131,7 +131,18 @@ def dither(axis: Record) -> float:
     return float(axis["dither_v"] if sample < half_period else -axis["dither_v"])
 
 
+@seldom
+def held_back(axis: Record, volts: float) -> float:
+    """A control signal held within the output's range, then within DACLIM."""
+    return clamp(clamp(volts, OUTPUT_RANGE_V), axis["output_limit_v"])
+
+
 @kernel
 def limited(axis: Record, volts: float) -> float:
-    """The control signal within the output's range, then within DACLIM."""
-    return clamp(clamp(volts, OUTPUT_RANGE_V), axis["output_limit_v"])
+    """The control signal within the output's range and DACLIM.
+
+    One within both is not passed through the comparisons: a processor goes on with it before they are made.
+    """
+    if abs(volts) > OUTPUT_RANGE_V or abs(volts) > axis["output_limit_v"]:
+        return held_back(axis, volts)
+    return volts

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
+import numpy as np
 
-from .kernels import Record, kernel
+from .kernels import Record, kernel, seldom
 
 OUTPUT_RANGE_V = 10.0
 """Range of the analogue output, +-V. Documented (6250 User Guide PDF p. 31)."""
@@ -26,12 +26,17 @@ def dac_fields(bits: int) -> dict[str, float]:
     }
 
 
+@seldom
+def nearest_code(unit: Record, code: float) -> float:
+    """The end of the converter's range that is nearest to a code outside of it."""
+    return float(unit["dac_highest_code"] if code > unit["dac_highest_code"] else unit["dac_lowest_code"])
+
+
 @kernel
 def convert_output(unit: Record, volts: float) -> float:
     """The voltage the converter really gives for `volts`: nearest step, halves upwards."""
-    code = float(math.floor(volts * unit["dac_steps_per_volt"] + 0.5))
-    if code > unit["dac_highest_code"]:
-        code = unit["dac_highest_code"]
-    if code < unit["dac_lowest_code"]:
-        code = unit["dac_lowest_code"]
+    # A floor that stays a float: the way through an integer would hold up the whole sample.
+    code = np.floor(volts * unit["dac_steps_per_volt"] + 0.5)
+    if code > unit["dac_highest_code"] or code < unit["dac_lowest_code"]:
+        code = nearest_code(unit, code)
     return float(code * unit["dac_step_v"])

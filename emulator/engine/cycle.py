@@ -134,25 +134,25 @@ def shut_down_on_error(axis: Record) -> None:
 
 
 @kernel
-def check_position_error(axis: Record) -> None:
+def check_position_error(axis: Record, feedback_counts: int) -> None:
     """Compare the position error with SMPER; 0 means not watched."""
     limit = axis["position_error_limit"]
-    if limit > 0 and abs(axis["commanded_counts"] - axis["feedback_counts"]) > limit:
+    if limit > 0 and abs(axis["commanded_counts"] - feedback_counts) > limit:
         shut_down_on_error(axis)
 
 
 @kernel
-def servo_axis(unit: Record, axis: Record) -> None:
+def servo_axis(unit: Record, axis: Record, feedback_counts: int) -> None:
     """Control law and output. With the drive off or the loop open the command follows the feedback: no error.
 
     Dither is part of the output of a drive that is on (assumed).
     """
     if axis["feedback_source"] != OPEN_LOOP and axis["enabled"] != 0:
-        check_position_error(axis)
+        check_position_error(axis, feedback_counts)
     if axis["feedback_source"] != OPEN_LOOP and axis["enabled"] != 0:
-        volts = closed_loop(unit, axis)
+        volts = closed_loop(unit, axis, feedback_counts)
     else:
-        axis["commanded_counts"] = axis["feedback_counts"]
+        axis["commanded_counts"] = feedback_counts
         volts = open_loop(axis)
         if axis["enabled"] == 0 and unit["drive_off_to_zero"] != 0:
             volts = 0.0
@@ -182,12 +182,12 @@ def sample_axis(unit: Record, axis: Record, segments: Records, now_ns: int, traj
             follow_profile(axis, segments, now_ns)
         elif follow_master(unit, axis, segments, now_ns):
             end_move(axis, now_ns)
-    take_feedback(axis, now_ns)
+    feedback_counts = take_feedback(axis, now_ns)
     if axis["switches_fitted"] != 0:
         operate_switches(unit, axis)
     if axis["capture_mode"] != CAPTURE_NONE:
         capture(unit, axis)
-    servo_axis(unit, axis)
+    servo_axis(unit, axis, feedback_counts)
 
 
 @kernel

@@ -170,18 +170,20 @@ def read_with_care(axis: Record, now_ns: int) -> None:
 
 
 @kernel
-def read_encoder(axis: Record, now_ns: int) -> None:
-    """Take the encoder's counts since the last sample into the encoder position.
+def read_encoder(axis: Record, now_ns: int) -> int:
+    """Take the encoder's counts since the last sample into the encoder position, and return that.
 
     What is out of the ordinary hides behind one comparison, so that an ordinary axis pays for nothing else.
     """
     counts = axis["true_position"] * axis["counts_per_rev"] + axis["encoder_phase"]
     if abs(counts - axis["encoder_reading"]) < axis["encoder_easy_step"]:
         reading = math.floor(counts)
-        axis["encoder_counts"] += axis["encoder_sign"] * (reading - axis["encoder_reading"])
+        position = axis["encoder_counts"] + axis["encoder_sign"] * (reading - axis["encoder_reading"])
+        axis["encoder_counts"] = position
         axis["encoder_reading"] = reading
-    else:
-        read_with_care(axis, now_ns)
+        return int(position)
+    read_with_care(axis, now_ns)
+    return int(axis["encoder_counts"])
 
 
 @seldom
@@ -198,10 +200,14 @@ def read_ani(axis: Record) -> None:
 
 
 @kernel
-def take_feedback(axis: Record, now_ns: int) -> None:
-    """Read the sensors; the selected one is the feedback position. In open loop that is the encoder (assumed)."""
+def take_feedback(axis: Record, now_ns: int) -> int:
+    """Read the sensors, and return the feedback position: what the selected one shows. In open loop that is the encoder
+    (assumed)."""
     axis["previous_feedback_counts"] = axis["feedback_counts"]
-    read_encoder(axis, now_ns)
+    feedback_counts = read_encoder(axis, now_ns)
     if axis["ani_fitted"] != 0:
         read_ani(axis)
-    axis["feedback_counts"] = axis["ani_counts"] if axis["feedback_source"] == ANI_SOURCE else axis["encoder_counts"]
+    if axis["feedback_source"] == ANI_SOURCE:
+        feedback_counts = axis["ani_counts"]
+    axis["feedback_counts"] = feedback_counts
+    return int(feedback_counts)

@@ -91,7 +91,7 @@ def filter_lag(axis: Record, moved: int) -> float:
     return float(first + second)
 
 
-@seldom
+@kernel
 def take_master(unit: Record, axis: Record, axes: Records) -> None:
     """Sample the master, filter it, predict it."""
     raw = raw_master(axis, axes)
@@ -212,7 +212,7 @@ def begin_where_master_is(axis: Record) -> None:
     axis["ratio_master_part"] = -axis["master_lag"] - carry
 
 
-@seldom
+@kernel
 def place_slave(axis: Record, ratios: Records) -> None:
     """Where the slave belongs for the master position of this system update.
 
@@ -246,7 +246,7 @@ def place_slave(axis: Record, ratios: Records) -> None:
     put_slave(axis, row, counts, part)
 
 
-@seldom
+@kernel
 def step_slave(unit: Record, axis: Record, ratios: Records) -> None:
     """System update of a slave: go on to the position computed at the last one, and compute the next."""
     axis["slave_from"] = axis["slave_target"]

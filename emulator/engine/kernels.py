@@ -8,6 +8,11 @@ before its caller), and `machine_code` compiles the register when no compiled co
 Rules for a kernel function: records are indexed with string literals, values are integers and floats, the arithmetic
 is + - * /, comparison and floor (the operations IEEE 754 fixes to the last bit), nothing is raised and nothing is
 allocated.
+
+A sample of an axis takes as long as the chain from one output to the next, in which every operation waits for the one
+before it; what lies beside the chain is nearly free. So the values in the chain are handed from function to function
+instead of being read back from a record, stay floats where they can, and what holds them within limits is a branch to a
+seldom function: a processor foresees a branch and goes on, but waits for a selection.
 """
 
 from __future__ import annotations

@@ -76,7 +76,7 @@ class CLoop:
     def __init__(self, library: ctypes.CDLL, engine: Engine) -> None:
         memory = engine.memory
         self._advance = library.advance
-        self._advance.argtypes = [ctypes.c_void_p] * 3 + [ctypes.c_int64] * 3
+        self._advance.argtypes = [ctypes.c_void_p] * 3 + [ctypes.c_int64] * 2
         self._advance.restype = ctypes.c_int64
         self.unit = _copy(np.zeros(1, _fields("unit")), memory.units)
         self.axes = _copy(np.zeros(len(memory.axes), _fields("axis")), memory.axes)
@@ -85,14 +85,13 @@ class CLoop:
             self.axes[name] = plants[name]
         for name in ("lag_to_position", "speed_step_limit"):
             self.axes[name] = plants[name]
-        self.segments = memory.segments.copy()
-        self._capacity = memory.capacity
+        self.segments = _copy(np.zeros(len(memory.segments), _fields("segment")), memory.segments)
 
     def run(self, until_ns: int) -> None:
         """Run to a time, whatever happens on the way."""
         unit, axes, segments = (array.ctypes.data for array in (self.unit, self.axes, self.segments))
         while self.unit["next_sample_ns"][0] <= until_ns:
-            self._advance(unit, axes, segments, len(self.axes), self._capacity, until_ns)
+            self._advance(unit, axes, segments, len(self.axes), until_ns)
 
     def cpu_ns_of(self, span_ns: int) -> int:
         """Processor time of a span of virtual time."""

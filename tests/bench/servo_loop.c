@@ -22,7 +22,8 @@ struct axis {
     int64_t hard_limit_enable, positive_limit_mask, negative_limit_mask, positive_active_level, negative_active_level;
     int64_t soft_limit_enable, positive_soft_limit, negative_soft_limit, watch_mask;
     /* state */
-    int64_t enabled, profile_active, profile_start_ns, segment_index, segment_count;
+    int64_t enabled, profile_active, profile_start_ns, profile_origin_counts;
+    int64_t first_segment, segment_index, segment_count;
     double profile_end_s, profile_end_counts;
     int64_t commanded_counts, encoder_reading, encoder_counts, feedback_counts, previous_feedback_counts;
     int64_t system_feedback_counts, latched_status, status, events, settling;
@@ -71,7 +72,7 @@ static void follow_profile(struct axis *a, const struct segment *segments, int64
 {
     double elapsed_s = (double)(now_ns - a->profile_start_ns) * 1e-9;
     if (elapsed_s >= a->profile_end_s) {
-        a->commanded_counts = (int64_t)floor(a->profile_end_counts + 0.5);
+        a->commanded_counts = a->profile_origin_counts + (int64_t)floor(a->profile_end_counts + 0.5);
         hold(a);
         a->events |= MOVE_ENDED;
         return;
@@ -83,7 +84,7 @@ static void follow_profile(struct axis *a, const struct segment *segments, int64
     const struct segment *s = &segments[index];
     double t = elapsed_s - s->start_s, half_rate = 0.5 * s->jerk * t;
     double position = s->position + t * (s->velocity + t * (0.5 * s->acceleration + half_rate / 3.0));
-    a->commanded_counts = (int64_t)floor(position + 0.5);
+    a->commanded_counts = a->profile_origin_counts + (int64_t)floor(position + 0.5);
     a->commanded_velocity = s->velocity + t * (s->acceleration + half_rate);
     a->commanded_acceleration = s->acceleration + s->jerk * t;
 }
@@ -200,8 +201,7 @@ static int64_t system_update(struct unit *u, struct axis *axes, int64_t count)
     return fired;
 }
 
-int64_t advance(struct unit *u, struct axis *axes, const struct segment *segments, int64_t count, int64_t capacity,
-                int64_t until_ns)
+int64_t advance(struct unit *u, struct axis *axes, const struct segment *segments, int64_t count, int64_t until_ns)
 {
     int64_t fired = 0;
     while (!fired && u->next_sample_ns <= until_ns) {
@@ -213,7 +213,7 @@ int64_t advance(struct unit *u, struct axis *axes, const struct segment *segment
             struct axis *a = &axes[i];
             step_drive(a);
             if (trajectory_due && a->profile_active)
-                follow_profile(a, segments + i * capacity, now_ns);
+                follow_profile(a, segments + a->first_segment, now_ns);
             read_encoder(a);
             servo(a, u);
         }

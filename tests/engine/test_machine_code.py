@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -125,6 +126,16 @@ def test_a_numba_that_hides_its_object_code_still_gives_a_kernel(
     monkeypatch.setattr(machine_code, "_compile", lambda: SimpleNamespace(address=4096))
     assert machine_code.build(tmp_path / "kernel").origin == "memory"
     assert not (tmp_path / "kernel").exists()
+
+
+def test_the_installed_numba_knows_every_option_that_keeps_functions_lean() -> None:
+    known = machine_code.known_options(import_module("numba.core.options"))
+    assert known == machine_code.LEAN_FUNCTIONS
+
+
+def test_an_option_that_a_numba_does_not_know_is_left_out() -> None:
+    another = SimpleNamespace(DefaultOptions=SimpleNamespace(no_cfunc_wrapper=object()))
+    assert machine_code.known_options(another) == {"no_cfunc_wrapper": True}
 
 
 def test_a_real_build_runs_and_is_kept(cache: Path) -> None:
