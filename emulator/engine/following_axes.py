@@ -213,8 +213,8 @@ class FollowingAxes(FollowingReadings, ABC):
         mirrored, and once its ratio is final that holds in both.
 
         With `start_at`, a master position, the move begins when the master gets there (if it is not preset, from the
-        side on which the master is), the present ratio being kept until then. No segments: the move is over at once,
-        where the slave is. DriveShutDown if the drive is off, NoMaster without a master.
+        side on which the master is), the present ratio being kept until then. No segments: the move is over there,
+        or at once, where the slave is. DriveShutDown if the drive is off, NoMaster without a master.
         """
         self._require_master(axis_index)
         ratio = self.following_ratio(axis_index)
@@ -223,7 +223,7 @@ class FollowingAxes(FollowingReadings, ABC):
         if start_at is not None:
             direction = 1 if preset or start_at >= self._ints[axis_index][_COUNTS] else -1
             place = _Place(start_at, 0.0, place.slave + ratio * (start_at - place.master - Fraction(place.part)))
-        if segments and (preset or start_at is not None):
+        if start_at is not None or (segments and preset):
             hold = ratio
         move = RatioMove(tuple(segments), place.slave, hold)
         self._write(
@@ -296,7 +296,8 @@ class FollowingAxes(FollowingReadings, ABC):
         if ints[_LEFT] != 0:
             return _Place(ints[_USED], floats[_USED_PART], move.end(direction))
         if ints[_SUM_PIECE] < 0:
-            return _Place(ints[_START], floats[_START_PART], move.base)
+            held_travel = (move.hold or ZERO) * self._master_travel(axis_index)
+            return _Place(ints[_USED], floats[_USED_PART], move.base + held_travel)
         row = self._memory.ratios[ints[_FIRST] + ints[_INDEX]]
         if row["slope"] != 0.0:
             travel = self._register(axis_index, "slave_next")
