@@ -13,7 +13,7 @@ from emulator.engine import TargetOvershot, plan_continuous, plan_preset
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
-    from emulator.controller.paths.motion import PathMotion
+    from emulator.controller.paths.motion import Course, PathMotion
 
 
 class PausedMove(NamedTuple):
@@ -42,6 +42,10 @@ class Pausing:
         moving = [i for i in range(controller.settings.axes) if engine.is_moving(i)]
         self._moves = {axis_index: self._move(axis_index) for axis_index in moving if self._resumable(axis_index)}
         stop_axes(controller, moving, "AD")
+
+    def holds(self, course: Course) -> bool:
+        """Whether a path is to be taken up again."""
+        return any(motion.course is course for motion in self._paths)
 
     def _resumable(self, axis_index: int) -> bool:
         """Homing, jogging, the joystick, Following and compiled profiles do not go on after a pause (assumed); paths
