@@ -226,6 +226,7 @@ class FollowingAxes(FollowingReadings, ABC):
         if start_at is not None or (segments and preset):
             hold = ratio
         move = RatioMove(tuple(segments), place.slave, hold)
+        self._forget_streams(axis_index)
         self._write(
             axis_index,
             ratio_master=place.master,
@@ -330,8 +331,12 @@ class FollowingAxes(FollowingReadings, ABC):
         self._write(axis_index, shift_counts=0.0)
         return _Place(place.master, place.part, place.slave + shift)
 
-    def _leave_following(self, axis_index: int) -> None:
+    def _forget_streams(self, axis_index: int) -> None:
+        """No streamed profile moves the axis any longer, in time or over master travel."""
+
+    def _give_up_motion(self, axis_index: int) -> None:
         """The axis moves by something else, or not at all; the shift stays readable."""
+        self._forget_streams(axis_index)
         self._moves[axis_index] = None
         self._write(axis_index, shift_active=0, shift_velocity=0.0, shift_acceleration=0.0)
         self._write(axis_index, ratio_phase=PHASE_NONE, ratio_now=0.0)
@@ -375,6 +380,7 @@ class FollowingAxes(FollowingReadings, ABC):
         """A resting axis becomes a slave at the end of an empty move, the net shift being `shift` there."""
         if self._ints[axis_index][ACTIVE]:
             raise ValueError(f"axis {axis_index + 1} is moving otherwise")
+        self._forget_streams(axis_index)
         base = self._rest(axis_index) - _parts(shift)
         self._begin_move(axis_index, RatioMove((), base, None))
         self._write(axis_index, ratio_phase=PHASE_NONE, ratio_updates_left=1, shift_counts=shift, ratio_direction=1)
