@@ -10,7 +10,7 @@ Positions are *reported* counts, that is after `PSET`, velocities counts per sec
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from .control_law import Gains, UnitFactors, gain_fields
 from .converter import DEFAULT_DAC_BITS, dac_fields
@@ -22,10 +22,9 @@ from .machine_code import Calls, Kernel, OnBuild, load_kernel
 from .machinery import AxisHardware
 from .memory import Memory, write_fields
 from .profile import Segments, State, evaluate, profile_duration
+from .profile_streaming import TIMED, ProfileStreams
 from .rates import NS_PER_S, ServoRates
-from .ratio_streaming import RatioStreams
 from .readings import (
-    ACTIVE,
     ANI_OFFSET,
     COMMANDED,
     ENABLED,
@@ -38,7 +37,7 @@ from .readings import (
     axis_word,
 )
 from .status import CLEARED_BY_ENABLE
-from .streaming import NO_REFILL, OnMark, Portion, Stream, StreamedSegment
+from .streaming import NO_REFILL, Portion
 from .trace import Scope
 from .travel import Capture
 from .watches import WATCH_SLOTS
@@ -50,21 +49,13 @@ FIRST_LASTING_WATCH = WATCH_SLOTS - 2
 """Value watches from this slot on outlive `clear_watches`: they belong to starts that wait for a position (GOWHEN), one
 an axis."""
 
-STREAM_MARGIN_UPDATES = 4
-"""System updates for which the rows of a streamed profile still last when the kernel asks for more."""
-
 DEFAULT_POSITION_ERROR_LIMIT = 4000
 """SMPER at power-up, counts. Assumed, medium confidence."""
-
-
-TIMED = 1
-"""Code of `profile_active` for a profile in time."""
 
 _TIME, _NEXT_SAMPLE, _SERVO = (word_of(UNIT, name) for name in ("time_ns", "next_sample_ns", "servo_ns"))
 _TO_TRAJECTORY, _TO_SYSTEM = (word_of(UNIT, name) for name in ("samples_to_trajectory", "trajectories_to_system"))
 _FIRED = word_of(UNIT, "fired_watches")
-_START, _SOURCE = axis_word("profile_start_ns"), axis_word("feedback_source")
-_ORIGIN, _SEGMENT_INDEX = axis_word("profile_origin_counts"), axis_word("segment_index")
+_SOURCE, _ORIGIN = axis_word("feedback_source"), axis_word("profile_origin_counts")
 _LATCHED, _EXTRA, _STATUS = (axis_word(name) for name in ("latched_status", "extra_status", "status"))
 _EVENTS = axis_word("events")
 
@@ -78,7 +69,7 @@ def _event(mask: int) -> Event:
         return _EVENT_OF.setdefault(mask, Event(mask))
 
 
-class Engine(RatioStreams):
+class Engine(ProfileStreams):
     """The servo of one unit. Drives are off, wires open and gains those of power-up until set."""
 
     def __init__(
@@ -98,9 +89,6 @@ class Engine(RatioStreams):
         if not 1 <= len(axes) <= MAX_AXES:
             raise ValueError(f"a unit has 1 to {MAX_AXES} axes, not {len(axes)}")
         super().__init__(Memory(len(axes)), output_delay_s=output_delay_s)
-        self._profiles: list[Segments] = [() for _ in axes]
-        self._leads_s = [0.0 for _ in axes]
-        self._streams: list[Stream | None] = [None for _ in axes]
         self._gains = [Gains() for _ in axes]
         self._factors = unit_factors or UnitFactors()
         self._kernel = load_kernel(on_build)
@@ -114,6 +102,7 @@ class Engine(RatioStreams):
         )
         self._init_following(len(axes), measurement or MasterMeasurement())
         self._init_ratio_streams(len(axes))
+        self._init_profile_streams(len(axes))
         for axis_index, hardware in enumerate(axes):
             self._power_up(axis_index, hardware)
         self.set_rates(rates)
@@ -247,75 +236,15 @@ class Engine(RatioStreams):
             raise DriveShutDown(f"the drive of axis {axis_index + 1} is off")
         offset = self._ints[axis_index][OFFSET]
         raw = tuple(segment.moved(offset) for segment in segments)
-        self._streams[axis_index] = None
-        self._leave_following(axis_index)
+        self._give_up_motion(axis_index)
         duration_s = profile_duration(raw)
         end = evaluate(raw, duration_s).position if duration_s < math.inf else 0.0
         self._load(axis_index, Portion(self.next_trajectory_ns, 0, 0.0, raw, duration_s, end, NO_REFILL))
         self._write(axis_index, profile_active=TIMED, settling=0)
 
-    def _load(self, axis_index: int, portion: Portion) -> None:
-        """Put rows into force at the next trajectory update."""
-        segments = portion.segments
-        if self._memory.reserve_segments(len(segments)):
-            self._bind()
-        self._memory.store_segments(axis_index, segments, start_s=portion.lead_s)
-        self._profiles[axis_index], self._leads_s[axis_index] = segments, portion.lead_s
-        self._write(
-            axis_index,
-            profile_start_ns=portion.base_ns,
-            profile_end_s=portion.end_s,
-            profile_end_counts=portion.end_counts,
-            profile_origin_counts=portion.origin_counts,
-            segment_count=len(segments),
-            segment_index=0,
-            refill_index=portion.refill_index,
-        )
-
-    def stream_profile(
-        self, axis_index: int, pieces: Iterator[StreamedSegment], on_mark: OnMark | None = None
-    ) -> Stream:
-        """Start a profile of any length from where the axis is commanded to be, at the next trajectory update.
-
-        Pieces are taken from the iterator as they are needed, at least four system updates ahead; `on_mark` is called
-        with the marks of those taken, the first ones before this returns, the others before `run` returns ROWS_LOW.
-        Returns what `streams` knows the profile by. DriveShutDown if the drive is off.
-        """
-        if not self._ints[axis_index][ENABLED]:
-            raise DriveShutDown(f"the drive of axis {axis_index + 1} is off")
-        state = self._raw_state(axis_index)
-        stream = Stream(pieces, margin_s=STREAM_MARGIN_UPDATES * self._rates.system_ns / NS_PER_S, on_mark=on_mark)
-        self._leave_following(axis_index)
-        self._load(axis_index, stream.begin(at_ns=self.next_trajectory_ns, position_counts=state.position))
-        self._streams[axis_index] = stream
-        self._write(axis_index, profile_active=TIMED, settling=0)
-        return stream
-
-    def resume_stream(self, axis_index: int) -> None:
-        """Leave the endless piece a streamed profile is in: the next one begins at the next trajectory update."""
-        stream = self._streams[axis_index]
-        if stream is None:
-            raise ValueError(f"axis {axis_index + 1} has no streamed profile")
-        state = self._raw_state(axis_index)
-        self._load(axis_index, stream.begin(at_ns=self.next_trajectory_ns, position_counts=state.position))
-
-    def streams(self, axis_index: int, stream: Stream) -> bool:
-        """Whether this streamed profile moves the axis: it has neither ended nor been replaced."""
-        return self._streams[axis_index] is stream and self._ints[axis_index][ACTIVE] == TIMED
-
-    def _feed_streams(self) -> None:
-        """Hand more rows to the axes that have asked."""
-        for axis_index, stream in enumerate(self._streams):
-            events = self._ints[axis_index][_EVENTS]
-            if events & EVENT_ROWS_LOW:
-                self._ints[axis_index][_EVENTS] = events & ~EVENT_ROWS_LOW
-                self._feed_ratios(axis_index)
-                if stream is not None and self.streams(axis_index, stream):
-                    self._load(axis_index, stream.go_on(self._ints[axis_index][_SEGMENT_INDEX]))
-
     def cancel_profile(self, axis_index: int) -> None:
         """Give up the profile at once: the commanded position stays where it is."""
-        self._leave_following(axis_index)
+        self._give_up_motion(axis_index)
         self._write(axis_index, profile_active=0, commanded_velocity=0.0, commanded_acceleration=0.0, settling=0)
 
     def profile_state(self, axis_index: int) -> State:
@@ -323,17 +252,6 @@ class Engine(RatioStreams):
         starts from. At rest the commanded position."""
         position, velocity, acceleration = self._raw_state(axis_index)
         return State(position - self._ints[axis_index][OFFSET], velocity, acceleration)
-
-    def _raw_state(self, axis_index: int) -> State:
-        ints = self._ints[axis_index]
-        if not ints[ACTIVE]:
-            return State(float(ints[COMMANDED]), 0.0, 0.0)
-        if self.is_following(axis_index):
-            position, velocity, acceleration = self._slave_state(axis_index)
-            return State(position + ints[OFFSET], velocity, acceleration)
-        elapsed_s = (self.next_trajectory_ns - ints[_START]) / NS_PER_S - self._leads_s[axis_index]
-        position, velocity, acceleration = evaluate(self._profiles[axis_index], elapsed_s)
-        return State(position + ints[_ORIGIN], velocity, acceleration)
 
     def profile_target(self, axis_index: int) -> float | None:
         """Reported counts at which the running profile ends; None for one that goes on for ever."""

@@ -213,8 +213,8 @@ class FollowingAxes(FollowingReadings, ABC):
         mirrored, and once its ratio is final that holds in both.
 
         With `start_at`, a master position, the move begins when the master gets there (if it is not preset, from the
-        side on which the master is), the present ratio being kept until then. No segments: the move is over at once,
-        where the slave is. DriveShutDown if the drive is off, NoMaster without a master.
+        side on which the master is), the present ratio being kept until then. No segments: the move is over there,
+        or at once, where the slave is. DriveShutDown if the drive is off, NoMaster without a master.
         """
         self._require_master(axis_index)
         ratio = self.following_ratio(axis_index)
@@ -223,9 +223,10 @@ class FollowingAxes(FollowingReadings, ABC):
         if start_at is not None:
             direction = 1 if preset or start_at >= self._ints[axis_index][_COUNTS] else -1
             place = _Place(start_at, 0.0, place.slave + ratio * (start_at - place.master - Fraction(place.part)))
-        if segments and (preset or start_at is not None):
+        if start_at is not None or (segments and preset):
             hold = ratio
         move = RatioMove(tuple(segments), place.slave, hold)
+        self._forget_streams(axis_index)
         self._write(
             axis_index,
             ratio_master=place.master,
@@ -296,7 +297,8 @@ class FollowingAxes(FollowingReadings, ABC):
         if ints[_LEFT] != 0:
             return _Place(ints[_USED], floats[_USED_PART], move.end(direction))
         if ints[_SUM_PIECE] < 0:
-            return _Place(ints[_START], floats[_START_PART], move.base)
+            held_travel = (move.hold or ZERO) * self._master_travel(axis_index)
+            return _Place(ints[_USED], floats[_USED_PART], move.base + held_travel)
         row = self._memory.ratios[ints[_FIRST] + ints[_INDEX]]
         if row["slope"] != 0.0:
             travel = self._register(axis_index, "slave_next")
@@ -329,8 +331,12 @@ class FollowingAxes(FollowingReadings, ABC):
         self._write(axis_index, shift_counts=0.0)
         return _Place(place.master, place.part, place.slave + shift)
 
-    def _leave_following(self, axis_index: int) -> None:
+    def _forget_streams(self, axis_index: int) -> None:
+        """No streamed profile moves the axis any longer, in time or over master travel."""
+
+    def _give_up_motion(self, axis_index: int) -> None:
         """The axis moves by something else, or not at all; the shift stays readable."""
+        self._forget_streams(axis_index)
         self._moves[axis_index] = None
         self._write(axis_index, shift_active=0, shift_velocity=0.0, shift_acceleration=0.0)
         self._write(axis_index, ratio_phase=PHASE_NONE, ratio_now=0.0)
@@ -374,6 +380,7 @@ class FollowingAxes(FollowingReadings, ABC):
         """A resting axis becomes a slave at the end of an empty move, the net shift being `shift` there."""
         if self._ints[axis_index][ACTIVE]:
             raise ValueError(f"axis {axis_index + 1} is moving otherwise")
+        self._forget_streams(axis_index)
         base = self._rest(axis_index) - _parts(shift)
         self._begin_move(axis_index, RatioMove((), base, None))
         self._write(axis_index, ratio_phase=PHASE_NONE, ratio_updates_left=1, shift_counts=shift, ratio_direction=1)

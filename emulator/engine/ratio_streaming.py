@@ -111,6 +111,11 @@ class RatioStreams(FollowingAxes, ABC):
         for axis_index in range(axis_count):
             self._write(axis_index, ratio_told_index=NO_REFILL)
 
+    def _forget_streams(self, axis_index: int) -> None:
+        self._ratio_streams[axis_index] = None
+        self._write(axis_index, ratio_told_index=NO_REFILL)
+        super()._forget_streams(axis_index)
+
     def stream_following(
         self, axis_index: int, pieces: Iterator[StreamedRatio], *, preset: bool, on_mark: OnMark | None = None
     ) -> RatioStream:

@@ -147,3 +147,19 @@ def test_the_menu_greets_at_power_up() -> None:
     session = fitted()
     assert "OEM6250" in lines(session)[0]
     assert all(word in lines(session)[1] for word in ("RUN", "JOG", "STATUS", "DRIVE", "DISPLAY", "ETC"))
+
+
+@pytest.mark.parametrize("start", ["GO1", "GOL1"])
+@pytest.mark.parametrize("after_s", [0.05, 1.0])
+def test_a_second_pause_in_the_pause_loses_nothing(start: str, after_s: float) -> None:
+    session = fitted(COMEXC=1, COMEXR=1)
+    session.ok("DRIVE11", "SMPER0,0", "A10", "AD5", "PA10", "PAD5", "V2", "PV2", "D16000", start, wait_s=0.0)
+    session.advance(0.5)
+    press(session, "PAUSE")
+    session.advance(after_s)
+    press(session, "PAUSE")
+    session.advance(1.0)
+    assert not session.signal("axis1.moving")
+    press(session, "CONTINUE")
+    session.until_rest()
+    assert session.position() == 16_000

@@ -196,6 +196,31 @@ def test_a_continuous_move_can_be_told_to_begin_further_back() -> None:
     assert gearing.slave == -50
 
 
+@pytest.mark.parametrize("goal", [0, 1, 3])
+@pytest.mark.parametrize("start_at", [1234, -1234])
+@pytest.mark.parametrize("again_at", [None, 1500, -1500])
+def test_a_move_in_place_of_one_that_waits_since_the_same_instant(
+    goal: int, start_at: int, again_at: int | None
+) -> None:
+    """The slave at ratio 2 is where its master is, not where the move that is given up would have begun."""
+    gearing = Gearing(prediction=False)
+    gearing.at_ratio(2)
+    gearing.turn(500)
+    gearing.settle()
+    gearing.follow(plan_ratio_change(Fraction(2), Fraction(3), 0), start_at=start_at)
+    gearing.follow(plan_ratio_change(Fraction(2), Fraction(goal), 0), start_at=again_at)
+    gearing.settle()
+    assert gearing.slave == 1000
+    gearing.turn(100)
+    gearing.settle()
+    assert gearing.slave == 1000 + 100 * (goal if again_at is None else 2)
+    if again_at is not None:
+        gearing.turn_to([again_at])
+        gearing.turn(100 if again_at > 0 else -100)
+        gearing.settle()
+        assert gearing.slave == 2 * again_at + (100 if again_at > 0 else -100) * goal
+
+
 def test_the_end_is_told_when_the_commanded_position_is_there() -> None:
     gearing = Gearing(prediction=False)
     engine = gearing.engine

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from itertools import count, repeat
 from math import inf
 
@@ -10,7 +11,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator.engine import AxisHardware, Engine, Event, Segment, plan_preset, plan_stop, rates_for
+from emulator.engine import (
+    AxisHardware,
+    Engine,
+    Event,
+    MasterSource,
+    RatioSegment,
+    Segment,
+    plan_preset,
+    plan_stop,
+    rates_for,
+)
+from emulator.engine.ratio_streaming import StreamedRatio
 from emulator.engine.streaming import ENDLESS, PARTS_PER_COUNT, TICKS_PER_S, Stream, StreamedSegment
 
 ALL_CLOSED = 0xFFF
@@ -168,3 +180,47 @@ def test_where_calls_are_cut_changes_nothing() -> None:
         return engine.snapshot()
 
     assert run(10**12) == run(777_777)
+
+
+def endless_steps(ratio: int) -> Iterator[StreamedRatio]:
+    """Pieces of 100 master counts without end."""
+    return repeat(StreamedRatio(RatioSegment(Fraction(100), Fraction(ratio), Fraction(ratio))))
+
+
+def replace_by(engine: Engine, what: str) -> None:
+    """Put another motion in place of that of axis 1."""
+    if what == "profile":
+        engine.start_profile(0, plan_stop(*engine.profile_state(0)[:2], 40 * COUNTS))
+    elif what == "stream":
+        engine.stream_profile(0, repeat(steady(COUNTS, 0.01)))
+    elif what == "following":
+        engine.start_following(0, (RatioSegment(None, Fraction(1), Fraction(1)),), preset=False)
+    elif what == "following stream":
+        engine.stream_following(0, endless_steps(1), preset=False)
+    else:
+        engine.cancel_profile(0)
+
+
+MOTIONS = ("profile", "stream", "following", "following stream")
+
+
+@pytest.mark.parametrize("first", MOTIONS)
+@pytest.mark.parametrize("then", (*MOTIONS, "nothing"))
+def test_whatever_moves_an_axis_takes_the_place_of_every_stream(first: str, then: str) -> None:
+    engine = engine_with_drive_on()
+    engine.set_master(0, source=MasterSource.ENCODER, master_index=1)
+    replace_by(engine, first)
+    timed = engine.stream_profile(0, repeat(steady(COUNTS, 0.01))) if first == "stream" else None
+    ratio = engine.stream_following(0, endless_steps(2), preset=False) if first == "following stream" else None
+    engine.run(engine.time_ns + 10**8)
+    replace_by(engine, then)
+    assert timed is None or not engine.streams(0, timed)
+    assert ratio is None or not engine.streams_ratio(0, ratio)
+    if "stream" not in then:
+        for resume in (engine.resume_stream, engine.resume_following):
+            with pytest.raises(ValueError, match="no streamed"):
+                resume(0)
+        engine.slip_encoder(1, 100_000)
+        end_ns = engine.time_ns + 10**9
+        while engine.time_ns < end_ns:
+            assert not engine.run(end_ns) & Event.ROWS_LOW, "nothing is asked for on behalf of a stream that is gone"

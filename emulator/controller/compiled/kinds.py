@@ -39,6 +39,11 @@ class MotionRun(Protocol):
         """Whether it still has an axis: false once its last segment is over, or something else moves or stopped it."""
         ...
 
+    @property
+    def paused(self) -> bool:
+        """It has been brought to rest and will be taken up again."""
+        ...
+
     def end(self) -> None:
         """It has lost all its axes; nothing of it may act any more."""
         ...

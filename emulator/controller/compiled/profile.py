@@ -90,6 +90,11 @@ class ProfileRun:
         """Whether a profile still has its axis."""
         return axis_index in self._runs and self._runs[axis_index].moves
 
+    @property
+    def paused(self) -> bool:
+        """Never: after a pause a profile does not go on (assumed)."""
+        return False
+
     def end(self) -> None:
         """No condition is waited for any longer."""
         for run in self._runs.values():

@@ -90,7 +90,7 @@ class CompiledPrograms:
                 self._runs.pop(name).end()
 
     def running(self, name: str) -> bool:
-        """Whether a compiled program has an axis in motion."""
+        """Whether a compiled program has an axis in motion, or is paused."""
         run = self._runs.get(name)
         return run is not None and is_under_way(run)
 
@@ -116,5 +116,5 @@ class CompiledPrograms:
 
 
 def is_under_way(run: MotionRun) -> bool:
-    """Whether compiled motion still has one of its axes."""
-    return any(map(run.moves, run.axes))
+    """Whether compiled motion still has one of its axes, or will have them again after a pause."""
+    return run.paused or any(map(run.moves, run.axes))

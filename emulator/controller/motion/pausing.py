@@ -13,7 +13,7 @@ from emulator.engine import TargetOvershot, plan_continuous, plan_preset
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
-    from emulator.controller.paths.motion import PathMotion
+    from emulator.controller.paths.motion import Course, PathMotion
 
 
 class PausedMove(NamedTuple):
@@ -32,16 +32,24 @@ class Pausing:
         self._paths: list[PathMotion] = []
 
     def pause(self) -> None:
-        """Hold the program; with COMEXR1 decelerate every moving axis and remember what it was doing."""
+        """Hold the program; with COMEXR1 decelerate every moving axis and remember what it was doing.
+
+        In a pause another one changes nothing for what is held already.
+        """
         controller = self._controller
         controller.interpreter.pause()
         if not controller.settings.flag("COMEXR"):
             return
         engine = controller.engine
-        self._paths = controller.paths.under_way()
-        moving = [i for i in range(controller.settings.axes) if engine.is_moving(i)]
-        self._moves = {axis_index: self._move(axis_index) for axis_index in moving if self._resumable(axis_index)}
+        held = {*self._moves, *(axis_index for motion in self._paths for axis_index in motion.course.axes)}
+        moving = [i for i in range(controller.settings.axes) if engine.is_moving(i) and i not in held]
+        self._moves |= {axis_index: self._move(axis_index) for axis_index in moving if self._resumable(axis_index)}
+        self._paths += [motion for motion in controller.paths.under_way() if held.isdisjoint(motion.course.axes)]
         stop_axes(controller, moving, "AD")
+
+    def holds(self, course: Course) -> bool:
+        """Whether a path is to be taken up again."""
+        return any(motion.course is course for motion in self._paths)
 
     def _resumable(self, axis_index: int) -> bool:
         """Homing, jogging, the joystick, Following and compiled profiles do not go on after a pause (assumed); paths

@@ -73,5 +73,10 @@ class ContourRun:
         """Whether the path still has an axis."""
         return self.controller.paths.travels(self.course, axis_index)
 
+    @property
+    def paused(self) -> bool:
+        """A pause holds it, with COMEXR1."""
+        return self.controller.pausing.holds(self.course)
+
     def end(self) -> None:
         """It leaves nothing behind: outputs of segments that it has not reached are not switched."""

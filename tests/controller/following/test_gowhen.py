@@ -217,3 +217,14 @@ def test_a_move_in_time_that_is_no_s_curve_when_its_time_comes_does_not_start() 
     rig.ok("AA0", "1GO1")
     rig.advance(1.0)
     assert rig.position() == 500
+
+
+@pytest.mark.parametrize("master_distance", [0, 1000])
+def test_a_ratio_can_end_where_the_master_comes_to(master_distance: int) -> None:
+    """FOLRN0 held by GOWHEN: the slave keeps its ratio until there, then comes to rest over FOLMD."""
+    rig = FollowingRig("SMPER0", "MC1", "FOLRN2", "FOLMD0", "1FPPEN0", "1GO1")
+    assert rig.travel(500) == 1000
+    rig.ok("FOLRN0", f"FOLMD{master_distance}", "1GOWHEN(1PMAS>=1500)", "1GO1")
+    assert rig.travel(900) == 2800
+    assert rig.travel(2000) == 3000 + master_distance
+    assert not rig.following_bit(1)

@@ -454,6 +454,35 @@ def test_a_pause_takes_the_path_up_again() -> None:
     assert session.unit.controller.output_functions.bits()[:2] == "01", "the first one is not switched again"
 
 
+@pytest.mark.parametrize("ends", ["path", "kill", "meanwhile"])
+def test_a_paused_path_is_under_way(ends: str) -> None:
+    """It keeps its segments in the pause and after it, until it is over or cannot be taken up again."""
+    session = contour(*RING, before=("PV2", "PA50", "PAD50"))
+    session.ok("COMEXR1", "INFNC1-E", "INFEN1")
+    start(session)
+    session.advance(1.0)
+    session.set_wire("input.1", closed=True)
+    session.advance(1.0)
+    assert not moving(session)
+    refused = {"!PUCOMP P": "INVALID CONDITIONS FOR COMMAND", "!PRUN P": "PATH ALREADY MOVING"}
+    for command, text in refused.items():
+        assert session.error(command) == text
+    if ends == "meanwhile":
+        session.ok("!D100,100", "!GO1")
+    elif ends == "kill":
+        session.ok("!K")
+    session.set_wire("input.1", closed=False)
+    session.advance(0.5)
+    if ends == "path":
+        assert moving(session)
+        for command, text in refused.items():
+            assert session.error(command) == text
+        run_out(session)
+    session.advance(0.5)
+    session.ok("PRUN P", "!K", wait_s=0.5)
+    session.ok("PUCOMP P")
+
+
 # What is refused: the text, SS bit 31 where it is PCOMP, no motion, and everything works after it.
 
 
