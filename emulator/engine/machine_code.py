@@ -42,7 +42,7 @@ from .watches import WATCH_SLOTS
 MODE_VARIABLE = "OEM6250_KERNEL"
 CACHE_VARIABLE = "OEM6250_CACHE_DIR"
 
-BUILD_ESTIMATE_S = 20
+BUILD_ESTIMATE_S = 25
 """What a build takes on a small machine, for the message only."""
 FOR_THIS_MACHINE = f"for this machine, about {BUILD_ESTIMATE_S} s"
 
