@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from clients.errors import Garbled, LinkError, NoAnswer, UnitError
 from clients.link import Link, Prompts
 from clients.plan import Answer, Kind, Plan
+from protocol.reply_shapes import reply_value
 
 MOST_BYTES = 262_144
 """More than that is no answer of a unit with 40 kB of memory (ours)."""
@@ -253,7 +254,9 @@ class Exchange:
             return Answer(self._plan.line, (label + text,), text, prompt, label + text, self._plan.row)
         eol = self._link.framing.eol.decode("latin-1")
         lines = tuple(line.removeprefix("*") for line in (text.split(eol) if eol else [text]))
-        return Answer(self._plan.line, lines, text, prompt, text, self._plan.row)
+        row = self._plan.row
+        bare = reply_value(text, row) if row is not None and len(lines) == 1 else text
+        return Answer(self._plan.line, lines, bare, prompt, text, row)
 
     def _set_aside(self, before: bytes, after: bytes) -> None:
         """Keep what is not the answer, without prompts and line ends."""

@@ -44,9 +44,9 @@ _MANY_LINES = ("table", "lines", "text")
 
 
 class Answer(NamedTuple):
-    """What came back for a line: `value` is the reply without asterisk, axis number and name, `lines` the whole
-    reply line by line without asterisks, `prompt` the kind of prompt that ended it ("" if none did), `text` everything
-    between echo and prompt as it came."""
+    """What came back for a line: `value` is the reply without asterisk, axis number and name (a reply of several lines
+    whole, as it came), `lines` the whole reply line by line without asterisks, `prompt` the kind of prompt that ended
+    it ("" if none did), `text` everything between echo and prompt as it came."""
 
     command: str
     lines: tuple[str, ...] = ()

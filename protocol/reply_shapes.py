@@ -113,6 +113,11 @@ def parse_reply_line(line: str, row: CommandRow) -> ParsedReply:
     return ParsedReply(axis, name, text=rest)
 
 
+def reply_value(line: str, row: CommandRow) -> str:
+    """A line of a reply to ``row`` without asterisk, axis number and name."""
+    return _split(line.removeprefix("*"), row.name)[2]
+
+
 def _split(line: str, name: str) -> tuple[int | None, str, str]:
     """Axis number, name and value; a line without the name (ERRLVL 1 and 0) is all value."""
     digits = _AXIS.match(line)

@@ -116,6 +116,7 @@ class Served:
         self._in_loop(self._open)
         self._engine.start()
         self._running = True
+        self._let_sign_on_go()
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -268,6 +269,12 @@ class Served:
         if not self._running:
             return function()
         return self._engine.call(function).result(ANSWER_PATIENCE_S)
+
+    def _let_sign_on_go(self) -> None:
+        """Two turns of the engine thread, the first of which tells the ports what power-up says: a TCP host that
+        connects afterwards meets a unit that has been on for a while, whichever thread is the faster."""
+        for _ in range(2):
+            self.call(lambda: None)
 
     def _skip(self, ns: int) -> int:
         self._clock.skip(ns)

@@ -29,3 +29,4 @@ def setup(app: Sphinx) -> None:
     app.add_lexer("oem6250", SixThousandLexer)
     app.add_lexer("recording", TextLexer)
     app.add_lexer("state", TOMLLexer)
+    app.add_lexer("terminal", TextLexer)

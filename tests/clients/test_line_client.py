@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -111,6 +112,19 @@ def test_a_closed_connection_is_an_error(peer: Callable[[Answer], Peer]) -> None
         server.accept()[0].close()
         with pytest.raises(ConnectionError):
             client.read_until_prompt()
+
+
+@pytest.mark.parametrize("kind", ["tcp", "socket"])
+def test_a_lost_connection_leaves_no_socket_open(kind: str) -> None:
+    with warnings.catch_warnings(), socket.create_server(("127.0.0.1", 0)) as server:
+        warnings.simplefilter("error")
+        client = LineClient.open(f"{kind}://127.0.0.1:{server.getsockname()[1]}")
+        inner = client._line._port._socket if kind == "socket" else client._line._socket  # type: ignore[attr-defined]
+        server.accept()[0].close()
+        with pytest.raises(OSError):
+            client.read_until_prompt()
+        client.close()
+        assert inner.fileno() == -1
 
 
 @pytest.mark.parametrize("url", ["tcp://", "tcp://host", "tcp://host:x", "tcp://:1"])

@@ -60,6 +60,13 @@ def test_a_unit_s_address_is_not_in_its_reply(query: str) -> None:
 def test_the_captured_session_of_an_aries() -> None:
     ctl = OEM6250(peer(ECHOING, {b"TREV\r": b"TREV\r\n*TREV92-016740-01-5.0 OEM6250\r\r\n> "}))
     assert ctl.send("TREV").lines == ("TREV92-016740-01-5.0 OEM6250",)
+    assert ctl.query("TREV") == "92-016740-01-5.0 OEM6250"
+
+
+def test_a_reply_of_several_lines_is_left_as_it_came() -> None:
+    ctl = OEM6250(peer(ECHOING, {b"TGAIN\r": b"TGAIN\r\n*SGP1,2\r\n*SGV3,4\r\r\n> "}))
+    answer = ctl.send("TGAIN")
+    assert (answer.value, answer.lines) == ("SGP1,2\r\n*SGV3,4", ("SGP1,2", "SGV3,4"))
 
 
 REFUSALS = [

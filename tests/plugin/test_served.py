@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import socket
 import threading
 import time
 from collections.abc import Iterator
@@ -265,3 +266,14 @@ class TestRules:
         unit.receive(b"", at_ns=250, channel=0)
         unit.advance(1000)
         assert seen == [100, 100, 200, 300]
+
+
+def test_a_host_that_connects_does_not_meet_the_sign_on() -> None:
+    """However soon it does: a unit says so at power-up, which was before."""
+    for _ in range(10):
+        with Served() as server, socket.create_connection(server.address, timeout=5) as host:
+            host.sendall(b"1TPE\r")
+            answer = b""
+            while not answer.endswith(b"> "):
+                answer += host.recv(100)
+            assert answer.startswith(b"1TPE")

@@ -142,6 +142,9 @@ class TelnetListens(TelnetSpeaksFirst):
 class TelnetLine:
     """The telnet client in a pseudo-terminal: what is sent is typed, what is received is what it shows."""
 
+    name = TELNET
+    clock = staticmethod(time.monotonic)
+
     def __init__(self, *arguments: str) -> None:
         self._fd, inner = os.openpty()
         environment = {**os.environ, "TERM": "dumb", "LC_ALL": "C"}
@@ -156,11 +159,11 @@ class TelnetLine:
             self.close()
             raise
 
-    def send(self, data: bytes) -> None:
+    def write(self, data: bytes) -> None:
         while data:
             data = data[os.write(self._fd, data) :]
 
-    def receive(self, timeout_s: float) -> bytes:
+    def read(self, timeout_s: float) -> bytes:
         if not select.select([self._fd], [], [], max(0.0, timeout_s))[0]:
             return b""
         try:
