@@ -18,7 +18,7 @@ import psutil
 
 from tests.fuzz.grammar import session
 from tests.fuzz.motion_grammar import motion_session
-from tests.fuzz.session import MACHINE, MOTION_PATIENCE, PATIENCE, TURNING, play
+from tests.fuzz.session import MACHINE, TURNING, play
 
 COMMANDS_A_SESSION = 500
 MOTION_EVERY = 3
@@ -55,10 +55,9 @@ def _one(seed: int) -> tuple[int, bool]:
     """Play the session of a seed; how many commands it had, and whether everything held."""
     of_motion, machine = seed % MOTION_EVERY == 0, TURNING if seed % 2 else MACHINE
     lines = (motion_session if of_motion else session)(Random(seed), COMMANDS_A_SESSION)
-    patience = MOTION_PATIENCE if of_motion else PATIENCE
     try:
-        said = play(lines, machine, patience=patience)
-        same = seed % TWICE_EVERY != 0 or play(lines, machine, patience=patience) == said
+        said = play(lines, machine, of_motion=of_motion)
+        same = seed % TWICE_EVERY != 0 or play(lines, machine, of_motion=of_motion) == said
     except Exception:
         print(f"seed {seed}:", file=sys.stderr)
         traceback.print_exc()

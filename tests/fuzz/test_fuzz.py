@@ -12,7 +12,7 @@ from protocol.command import parse_command
 from protocol.errors import CommandError
 from tests.fuzz.grammar import session
 from tests.fuzz.motion_grammar import motion_session
-from tests.fuzz.session import DIRECTION, MACHINE, MOTION_PATIENCE, TURNING, play
+from tests.fuzz.session import DIRECTION, MACHINE, TURNING, play
 
 COMMANDS = 60
 
@@ -33,7 +33,7 @@ def test_the_same_session_twice(seed: int) -> None:
 @settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(st.integers(0, 2**32), st.sampled_from([MACHINE, TURNING]))
 def test_random_motion(seed: int, machine: Machine) -> None:
-    play(motion_session(Random(seed), 2 * COMMANDS), machine, patience=MOTION_PATIENCE)
+    play(motion_session(Random(seed), 2 * COMMANDS), machine, of_motion=True)
 
 
 def test_the_sessions_of_motion_start_every_kind_of_it() -> None:
