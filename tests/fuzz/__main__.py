@@ -1,7 +1,8 @@
 """`python -m tests.fuzz [--commands N] [--seed N]`: the long run of the fuzzer, a million commands by default.
 
-Each session has its own seed, which is printed when it fails; `--seed S --commands 1` plays that one again. Every
-twentieth session is played twice and must give the same bytes at the same times.
+Two of three sessions are of commands and programs, the third is of motion. Each has its own seed, which is printed when
+it fails; `--seed S --commands 1` plays that one again. Every twentieth session is played twice and must give the same
+bytes at the same times.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ from random import Random
 import psutil
 
 from tests.fuzz.grammar import session
-from tests.fuzz.session import play
+from tests.fuzz.motion_grammar import motion_session
+from tests.fuzz.session import MACHINE, TURNING, play
 
 COMMANDS_A_SESSION = 500
+MOTION_EVERY = 3
 TWICE_EVERY = 20
 TOLD_EVERY_S = 30.0
 MAX_FAILURES = 5
@@ -50,10 +53,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _one(seed: int) -> tuple[int, bool]:
     """Play the session of a seed; how many commands it had, and whether everything held."""
-    lines = session(Random(seed), COMMANDS_A_SESSION)
+    of_motion, machine = seed % MOTION_EVERY == 0, TURNING if seed % 2 else MACHINE
+    lines = (motion_session if of_motion else session)(Random(seed), COMMANDS_A_SESSION)
     try:
-        said = play(lines)
-        same = seed % TWICE_EVERY != 0 or play(lines) == said
+        said = play(lines, machine, of_motion=of_motion)
+        same = seed % TWICE_EVERY != 0 or play(lines, machine, of_motion=of_motion) == said
     except Exception:
         print(f"seed {seed}:", file=sys.stderr)
         traceback.print_exc()

@@ -13,17 +13,14 @@ from emulator.controller.compiled.loops import Planned, pieces_of
 from emulator.controller.compiled.marks import Held, Marks, Over
 from emulator.controller.compiled.profile_axis import ProfileAxis
 from emulator.controller.compiled.ratio_blending import ZERO, RatioMove, blend_ratio
+from emulator.controller.motion.following.ratio import master_counts, ratio_in_force
 from emulator.engine import Engine
 from emulator.engine.ratio_profile import RatioSegment
 from emulator.engine.ratio_streaming import RatioStream, StreamedRatio
-from protocol.errors import INVALID_RATIO, CommandError
 
 if TYPE_CHECKING:
     from emulator.controller.controller import Controller
     from emulator.controller.settings import Settings
-
-LARGEST_RATIO = 127
-"""Slave steps in a master step, after scaling (6000 PG p.198)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,16 +88,13 @@ def ratio_move(settings: Settings, axis_index: int, position: Fraction, *, ends_
     Raises:
         CommandError: INVALID RATIO.
     """
-    counts = settings.counts
-    ratio = Fraction(counts("FOLRN", axis_index)) / Fraction(counts("FOLRD", axis_index))
-    if ratio > LARGEST_RATIO:
-        raise CommandError(INVALID_RATIO)
-    whole, continuous = int(counts("D", axis_index)), settings.flag("MC", axis_index)
+    ratio = ratio_in_force(settings, axis_index)
+    whole, continuous = int(settings.counts("D", axis_index)), settings.flag("MC", axis_index)
     travel = whole - position if settings.flag("MA", axis_index) and not continuous else Fraction(whole)
     return RatioMove(
         distance=None if continuous else travel,
         ratio=-ratio if travel < 0 else ratio,
-        master_distance=int(counts("FOLMD", axis_index)),
+        master_distance=master_counts(settings, "FOLMD", axis_index),
         ends_at_rest=ends_at_rest,
     )
 

@@ -15,7 +15,7 @@ from emulator.controller.motion.following.assignment import is_following
 from emulator.controller.motion.following.go_wait import motion_wait
 from emulator.controller.motion.limits import limit_in_the_way
 from emulator.controller.motion.targets import preset_target
-from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
+from emulator.engine import Segments, State, TargetOvershot, plan_continuous, plan_preset, plan_stop
 from protocol.command import Command
 from protocol.errors import (
     DRIVE_SHUTDOWN,
@@ -254,12 +254,13 @@ def ramps(controller: Controller, axis_index: int, family: str = "") -> tuple[fl
     )
 
 
-def stop_segments(controller: Controller, axis_index: int, ramp: str) -> Segments:
-    """The profile that brings an axis to rest at a deceleration (AD, LHAD, LSAD) and its average partner.
+def stop_segments(controller: Controller, axis_index: int, ramp: str, state: State | None = None) -> Segments:
+    """The profile that brings an axis, or what has ``state``, to rest at a deceleration (AD, LHAD, LSAD) and its
+    average partner.
 
     A partner outside the S-curve rule is left out: a stop is never refused (assumed).
     """
-    state = controller.engine.profile_state(axis_index)
+    state = state or controller.engine.profile_state(axis_index)
     maximum = float(controller.settings.counts(ramp, axis_index))
     average = float(controller.settings.counts(f"{ramp}A", axis_index))
     if not maximum <= 2 * average <= 2 * maximum:

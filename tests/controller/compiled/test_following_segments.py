@@ -130,3 +130,17 @@ def test_a_last_continuous_segment_keeps_its_ratio() -> None:
     assert rig.travel(3000) == 2500
     rig.ok("MC1", "FOLMD1000", "FOLRN0", "1GO1")
     assert rig.travel(2000) == pytest.approx(2500 + 500, abs=2)
+
+
+def test_a_scaled_ratio_is_the_same_compiled_as_by_go() -> None:
+    """FOLRN 1.25 at SCLD 2 is 2 counts, the rest cut off (6000 PG p.197), FOLRD 1 at SCLMAS 1 is one: ratio 2."""
+    program = ("MC1", "FOLRN1.25", "FOLRD1", "FOLMD0", "GOBUF1")
+    rig = FollowingRig("SMPER0,0", "SCALE1", "SCLD2,2", "SCLMAS1,1")
+    define(rig, *program)
+    rig.ok("PCOMP P", "PRUN P")
+    compiled = rig.travel(1000)
+    rig.ok("!K")
+    rig.advance(1.0)
+    before = rig.travel(0)
+    rig.ok(*program[:-1], "1GO1")
+    assert rig.travel(1000) - before == compiled

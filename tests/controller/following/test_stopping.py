@@ -198,3 +198,33 @@ def test_a_unit_may_come_up_as_a_slave() -> None:
         session.advance(0.1)
         session.read()
         session.ok("PSET0,0")
+
+
+def mutual(*commands: str) -> Session:
+    """Both axes follow each other's commanded position at ratio 2, disturbed by a shift of one: nothing holds them."""
+    session = Session("", COMEXC=1)
+    session.ok("DRIVE11", *commands, "FOLMAS+24,+14", "FOLEN11", "MC11", "FOLRN2,2", "FOLMD0,0", "A100,100", "GO11")
+    session.advance(0.1)
+    session.ok("1FSHFD100")
+    session.advance(1.0)
+    return session
+
+
+def test_slaves_of_each_other_run_into_the_position_error_limit() -> None:
+    session = mutual("LH0,0", "SMPER4000,4000")
+    assert session.axis_bit(23, 1) or session.axis_bit(23, 2)
+    assert not session.signal("axis1.moving") and not session.signal("axis2.moving")
+    session.ok("!K", "FOLMAS0,0", "DRIVE11", "D4000,4000", "MC00", "PSET0,0", "GO11")
+    session.until_rest()
+    session.until_rest(2)
+    assert (session.position(), session.position(2)) == (4000, 4000)
+
+
+def test_slaves_of_each_other_leave_a_unit_that_obeys() -> None:
+    """Without any limit the positions leave what a unit can show; a kill and a RESET end that."""
+    session = mutual("LH0,0", "SMPER0,0")
+    session.ask("!K", wait_s=1.0)
+    session.ask("RESET", wait_s=1.0)
+    session.ok("DRIVE11", "SMPER0,0", "LH0,0", "PSET0,0", "COMEXC1", "A100,100", "D4000,4000", "GO11", wait_s=0.0)
+    session.until_rest()
+    assert session.position() == 4000

@@ -16,8 +16,8 @@ from emulator.controller.dispatch import Lines, handles
 from emulator.controller.motion.following.assignment import at_ratio, in_ratio_move, is_following
 from emulator.controller.motion.following.fields import given_counts, given_numbers
 from emulator.controller.motion.following.go_wait import FollowingWait
-from emulator.controller.motion.go import allow_motion, check_ready, check_s_curve, ramps
-from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset, plan_stop
+from emulator.controller.motion.go import allow_motion, check_ready, check_s_curve, ramps, stop_segments
+from emulator.engine import Segments, TargetOvershot, plan_continuous, plan_preset
 from protocol.command import Command
 from protocol.errors import (
     INVALID_CONDITIONS,
@@ -117,12 +117,7 @@ def _stop_shift(controller: Controller, axis_index: int) -> None:
 
 
 def _braking(controller: Controller, axis_index: int) -> Segments:
-    state = controller.engine.shift_state(axis_index)
-    maximum = float(controller.settings.counts("AD", axis_index))
-    average = float(controller.settings.counts("ADA", axis_index))
-    if not maximum <= 2 * average <= 2 * maximum:
-        average = maximum
-    return plan_stop(state.position, state.velocity, maximum, average)
+    return stop_segments(controller, axis_index, "AD", controller.engine.shift_state(axis_index))
 
 
 def _begin(
