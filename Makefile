@@ -12,7 +12,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 ARGS ?=
-JOBS ?= 2
+# One more than two cores have, because many tests wait for real ports.
+JOBS ?= 3
 
 .PHONY: run test bench fuzz lint docs pictures clean
 

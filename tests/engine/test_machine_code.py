@@ -138,6 +138,7 @@ def test_an_option_that_a_numba_does_not_know_is_left_out() -> None:
     assert machine_code.known_options(another) == {"no_cfunc_wrapper": True}
 
 
+@pytest.mark.slow
 def test_a_real_build_runs_and_is_kept(cache: Path) -> None:
     cache.write_bytes(b"damaged")
     first = start_process()

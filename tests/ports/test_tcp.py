@@ -109,12 +109,12 @@ def test_the_telnet_client_shows_each_character_once(unit: Served, kind: str, da
     try:
         shown = b""
         for byte in b"1TPE":
-            line.send(bytes((byte,)))
-            shown += line.receive(5.0)
+            line.write(bytes((byte,)))
+            shown += line.read(5.0)
         assert shown == b"1TPE"
-        line.send(b"\r")
+        line.write(b"\r")
         while not shown.endswith(b"> "):
-            shown += line.receive(5.0)
+            shown += line.read(5.0)
         assert shown == ANSWER
     finally:
         line.close()

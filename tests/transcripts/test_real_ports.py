@@ -40,11 +40,11 @@ SESSIONS = [
     if not transcript.virtual_only and not resets_to_its_own_defaults(transcript)
 ]
 
-DEFAULT_SHARE = 8
-"""Of the sessions that are not those of known hosts every eighth is played in the default run, all with --runslow."""
+DEFAULT_SHARE = 16
+"""Of the sessions that are not those of known hosts one in so many is played in the default run, all with --runslow."""
 USUAL = ("tcp", "pty")
-"""Transports with that share, and with the hosts' sessions; the others repeat one of them in every sixty-four."""
-SMALL_SHARE = 64
+"""Transports with that share, and with the hosts' sessions; of the others one in SMALL_SHARE is played."""
+SMALL_SHARE = 128
 
 REAL_TIME_UP_TO_S = 1.6
 """Sessions that take longer are played faster, so that the whole file stays under a minute."""
