@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib.metadata import entry_points
 
 import pytest
+from hypothesis import settings
 
 _INSTALLED = any(point.value == "clients.pytest_plugin" for point in entry_points(group="pytest11"))
 pytest_plugins = ["pytester"] if _INSTALLED else ["pytester", "clients.pytest_plugin"]
@@ -12,6 +13,13 @@ pytest_plugins = ["pytester"] if _INSTALLED else ["pytester", "clients.pytest_pl
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--runslow", action="store_true", help="run the soak and fuzz tests as well (minutes)")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Properties that ask for no number of examples get half of hypothesis's own in the default run."""
+    settings.register_profile("default run", max_examples=50)
+    if not config.getoption("--runslow"):
+        settings.load_profile("default run")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
