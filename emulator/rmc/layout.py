@@ -108,6 +108,9 @@ AXIS_FIELDS: Fields = (
     ("open_loop_v", FLOAT, "output of open loop before the bias, V"),
     ("open_loop_goal_v", FLOAT, "where its ramp ends, V"),
     ("open_loop_ramp", FLOAT, "its rate, V/s"),
+    ("open_loop_start_v", FLOAT, "where a ramp over distance began, V"),
+    ("open_loop_from", FLOAT, "position at which it began, pu"),
+    ("open_loop_span", FLOAT, "way over which it goes, signed, pu"),
     ("off_when_done", INT, "1 = the Enable Output goes off when the ramp has ended"),
     ("quick_decel", FLOAT, "quick move: deceleration of the closed-loop part, pu/s2"),
     # law

@@ -28,6 +28,7 @@ from .target import (
     GEAR_BY_TIME,
     GEAR_MAP,
     OPEN_LOOP,
+    OUTPUT_BY_DISTANCE,
     OUTPUT_RAMP_THEN_CLOSE,
     QUICK_MOVE,
     TRACK,
@@ -39,6 +40,8 @@ from .target import (
 )
 
 POSITIVE, NEGATIVE, CURRENT, SIGNED = 1, -1, 2, 4
+NEVER_RAMPED_V_S = 1.0
+"""Rate of an output that follows the position: it has arrived before a ramp in time would begin."""
 RESET = 1
 
 # Moves to a position
@@ -327,6 +330,31 @@ def direct_output(device: DeviceLike, axis: Axis, values: Values) -> None:
 def open_loop_rate(device: DeviceLike, axis: Axis, values: Values) -> None:
     """A voltage, reached by a linear ramp."""
     open_to(axis.record, OPEN_LOOP, values[0], values[1])
+
+
+@carries_out("open_loop_absolute")
+def open_loop_absolute(device: DeviceLike, axis: Axis, values: Values) -> None:
+    """A voltage, reached in proportion to the way made towards a position."""
+    output_v, position = values
+    open_over_distance(axis, output_v, position - axis["actual_position"])
+
+
+@carries_out("open_loop_relative")
+def open_loop_relative(device: DeviceLike, axis: Axis, values: Values) -> None:
+    """A voltage, reached in proportion to the way made of a distance."""
+    output_v, distance = values
+    open_over_distance(axis, output_v, distance)
+
+
+def open_over_distance(axis: Axis, output_v: float, distance: float) -> None:
+    """Open the loop; the output follows the position, not the time, so an axis that has no output does not set out."""
+    open_to(axis.record, OPEN_LOOP, output_v, NEVER_RAMPED_V_S)
+    axis.write(
+        generator=OUTPUT_BY_DISTANCE,
+        open_loop_start_v=axis["open_loop_v"],
+        open_loop_from=axis["actual_position"],
+        open_loop_span=distance,
+    )
 
 
 @carries_out("stop_open_loop")

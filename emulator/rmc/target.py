@@ -15,7 +15,7 @@ from .laws import FULL_PERCENT, POSITION_I_PD, POSITION_PID, clear_terms, held_w
 from .ramps import LINEAR, S_CURVE, on_ramp
 
 REST, RAMPS, GEAR_BY_TIME, GEAR_BY_RATE, GEAR_BY_DISTANCE, GEAR_MAP, TRACK, TRACK_STEPS = range(8)
-OUTPUT_RAMP, OUTPUT_RAMP_THEN_CLOSE, QUICK_MOVE = range(8, 11)
+OUTPUT_RAMP, OUTPUT_RAMP_THEN_CLOSE, QUICK_MOVE, OUTPUT_BY_DISTANCE = range(8, 12)
 
 COMPLETE, RISING, CONSTANT, FALLING = range(4)
 
@@ -284,6 +284,19 @@ def ramp_output(axis: Record, loop_s: float) -> bool:
 
 
 @seldom
+def output_by_distance(axis: Record) -> None:
+    """The output goes from where it was to its goal in proportion to the way made towards a position (M111)."""
+    span = axis["open_loop_span"]
+    share = (axis["actual_position"] - axis["open_loop_from"]) / span if span != 0.0 else 1.0
+    start, goal = axis["open_loop_start_v"], axis["open_loop_goal_v"]
+    axis["open_loop_v"] = start + (goal - start) * min(max(share, 0.0), 1.0)
+    if share >= 1.0:
+        axis["generator"] = OUTPUT_RAMP
+    else:
+        axis["target_state"] = RISING if abs(goal) > abs(start) else FALLING
+
+
+@seldom
 def open_loop_generator(axis: Record, loop_s: float) -> None:
     """A ramp of the output, and what follows it."""
     arrived = ramp_output(axis, loop_s)
@@ -354,6 +367,8 @@ def generate(axis: Record, ramps: Records, loop_s: float, loops_per_s: float) ->
         open_loop_generator(axis, loop_s)
     elif generator == QUICK_MOVE:
         quick_move(axis, ramps, loop_s)
+    elif generator == OUTPUT_BY_DISTANCE:
+        output_by_distance(axis)
     elif generator != REST:
         follow_master(axis, loop_s, loops_per_s)
     if not is_closed(axis) or not is_finite(axis["target_position"] + axis["target_velocity"]):

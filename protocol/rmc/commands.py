@@ -79,8 +79,12 @@ COMMANDS: Final = (
     CommandType(8, "fault_controller", "Fault Controller", (), "H Command_List, assumed M"),
     CommandType(9, "direct_output", "Direct Output", (_OUTPUT, _RAMP), "H Cmd_Direct_Output", motion=True),
     CommandType(10, "open_loop_rate", "Open Loop Rate", (_OUTPUT, _RAMP), "M722", motion=True),
-    _left_out(11, "open_loop_absolute", "Open Loop Absolute", "M111"),
-    _left_out(12, "open_loop_relative", "Open Loop Relative", "M128"),
+    CommandType(
+        11, "open_loop_absolute", "Open Loop Absolute", (_OUTPUT, _POSITION), "M111; fields assumed L", motion=True
+    ),
+    CommandType(
+        12, "open_loop_relative", "Open Loop Relative", (_OUTPUT, _DISTANCE), "M128; fields assumed L", motion=True
+    ),
     CommandType(
         13,
         "sync_move_absolute",

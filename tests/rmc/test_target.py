@@ -371,3 +371,28 @@ def test_a_plan_beyond_all_numbers_moves_nothing(pair: RmcDevice) -> None:
     command(pair, 3.0)
     run(pair, 0.2)
     assert pair.axes[0]["control_v"] == 0.0
+
+
+@pytest.mark.parametrize(("number", "relative"), [(11, False), (12, True)])
+def test_an_open_loop_output_over_distance(number: int, relative: bool) -> None:
+    """The output is linear in the way made, and stays at its goal from the place on (M111, M128)."""
+    built = device()
+    command(built, 10, 1.0, 100.0)
+    run(built, 0.5)
+    begun = built.axes[0]["actual_position"]
+    command(built, number, 0.2, 6.0 if relative else begun + 6.0)
+    rows = trace(built, 6.0, "open_loop_v", "actual_position")
+    way = np.clip((rows["actual_position"] - begun) / 6.0, 0.0, 1.0)
+    assert np.abs(rows["open_loop_v"] - (1.0 - 0.8 * way)).max() == pytest.approx(0.0, abs=1e-9)
+    assert 0.0 < way[100] < 0.5 and way[-1] == 1.0
+    assert rows["open_loop_v"][-1] == 0.2
+    assert built.axes[0]["target_done"] == 1
+
+
+def test_an_output_over_distance_does_not_set_out_from_none() -> None:
+    """In proportion to a way that is not made the output stays 0, wherever it is to go."""
+    built = device()
+    command(built, 11, 5.0, 10.0)
+    run(built, 1.0)
+    assert built.axes[0]["open_loop_v"] == 0.0
+    assert built.axes[0]["target_done"] == 0
