@@ -16,8 +16,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Properties that ask for no number of examples get half of hypothesis's own in the default run."""
-    settings.register_profile("default run", max_examples=50)
+    """Properties that ask for no number of examples get a third of hypothesis's own in the default run."""
+    settings.register_profile("default run", max_examples=35)
     if not config.getoption("--runslow"):
         settings.load_profile("default run")
 
