@@ -100,7 +100,7 @@ def runs_on(engine: EngineThread) -> Callable[[Callable[[], Any]], Any]:
 def _stop_at_signals() -> asyncio.Event:
     stop = asyncio.Event()
     for number in (signal.SIGINT, signal.SIGTERM):
-        # The event loop of Windows has no signal handlers; there Ctrl-C ends the process.
+        # Meant: the event loop of Windows has no signal handlers; there Ctrl-C ends the process.
         with contextlib.suppress(NotImplementedError):
             asyncio.get_running_loop().add_signal_handler(number, stop.set)
     return stop

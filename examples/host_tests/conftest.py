@@ -20,6 +20,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Tests that break something are for the emulator alone."""
     if config.getoption("real"):
         for item in items:
+            # Meant: what only the emulator can do, such as opening a limit, cannot be asked of hardware.
             if "oem6250" in getattr(item, "fixturenames", ()):
                 item.add_marker(pytest.mark.skip(reason="needs the emulator"))
 

@@ -42,7 +42,7 @@ def measure(effort: Effort) -> list[Figure]:
 def idle_percent(servers: tuple[Server, Server], seconds: float) -> tuple[float, float]:
     """Processor time per time of both servers while nobody asks anything."""
     before_s, began_s = [server.cpu_s for server in servers], time.perf_counter()
-    time.sleep(seconds)
+    time.sleep(seconds)  # what idle servers use in real time is what is measured
     after_s, elapsed_s = [server.cpu_s for server in servers], time.perf_counter() - began_s
     own, bare = ((after - before) / elapsed_s * 100 for after, before in zip(after_s, before_s, strict=True))
     return own, bare

@@ -186,7 +186,7 @@ def poll(
                 data += receive(sock)
             answers.append((sent_ns, time.monotonic_ns(), data.decode("latin-1")))
             if interval_s:
-                time.sleep(interval_s * pauses.uniform(0.5, 1.5))
+                time.sleep(interval_s * pauses.uniform(0.5, 1.5))  # a host that polls in real time
     return answers
 
 

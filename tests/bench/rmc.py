@@ -134,7 +134,7 @@ def emulator_port() -> Iterator[int]:
         try:
             until = time.monotonic() + START_PATIENCE_S
             while not announce.exists() and process.poll() is None and time.monotonic() < until:
-                time.sleep(0.05)
+                time.sleep(0.05)  # another process writes the file
             yield int(json.loads(announce.read_text())["modbus"][0].rpartition(":")[2])
         finally:
             process.terminate()

@@ -159,6 +159,7 @@ def _doctest(text: str, names: dict[str, Any], block: Block) -> None:
 
 def _shell(block: Block, before: Sequence[Block], folder: Path, request: pytest.FixtureRequest) -> None:
     for program in block.values("needs"):
+        # Meant: such programs come with the system, not from the package index.
         if shutil.which(program) is None:
             pytest.skip(f"{program} is not installed")
     with ExitStack() as stack:
@@ -202,7 +203,7 @@ def _session(block: Block, before: Sequence[Block], folder: Path, request: pytes
 
 
 def _c(block: Block, before: Sequence[Block], folder: Path, request: pytest.FixtureRequest) -> None:
-    # A C compiler is a program of the system, not of the package index.
+    # Meant: a C compiler is a program of the system, not of the package index.
     if (compiler := shutil.which("cc")) is None:
         pytest.skip("no C compiler here")
     options = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-x", "c", "-"]

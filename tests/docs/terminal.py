@@ -18,6 +18,7 @@ import pytest
 
 def play(text: str, port: str, history: Path) -> str:
     """Type the lines of a session; what is on the screen at its end."""
+    # Meant: Windows has no pseudo-terminals.
     if not hasattr(os, "openpty"):
         pytest.skip("needs pseudo-terminals")
     from tests.clients.terminal.screen import Screen

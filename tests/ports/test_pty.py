@@ -14,6 +14,7 @@ import serial
 
 from tests.ports.served import Served, opened, read_pty, wait_until
 
+# Meant: Windows has none.
 pytestmark = pytest.mark.skipif(not hasattr(os, "openpty"), reason="pseudo-terminals are a thing of Unix")
 linux_only = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells who has a pseudo-terminal open")
 

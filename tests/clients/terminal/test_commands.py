@@ -28,7 +28,7 @@ class Session:
     async def until(self, condition: Callable[[], bool]) -> None:
         async with asyncio.timeout(PATIENCE_S):
             while not condition():
-                await asyncio.sleep(0.005)
+                await asyncio.sleep(0.005)  # the port is read in a thread, in real time
 
     async def enter(self, line: str, answer: str) -> None:
         """Type a line and wait for something in what comes."""
@@ -164,10 +164,10 @@ async def test_a_kill_does_not_wait_for_a_procedure_that_waits() -> None:
         asking = asyncio.create_task(conversation.find_out())
         async with asyncio.timeout(PATIENCE_S):
             while b"!ERRLVL" not in received:
-                await asyncio.sleep(0.005)
+                await asyncio.sleep(0.005)  # the port is read in a thread, in real time
             assert await conversation.kill()
             while b"!K\r" not in received:
-                await asyncio.sleep(0.005)
+                await asyncio.sleep(0.005)  # the port is read in a thread, in real time
         assert not asking.done()
         await asking
         await conversation.close()
@@ -199,7 +199,7 @@ async def test_a_port_where_nobody_answers_stays_open() -> None:
         await conversation.type_line("TAS")
         async with asyncio.timeout(PATIENCE_S):
             while not received.endswith(b"TAS\r"):
-                await asyncio.sleep(0.005)
+                await asyncio.sleep(0.005)  # the port is read in a thread, in real time
         await conversation.close()
 
 
